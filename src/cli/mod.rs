@@ -1,0 +1,39 @@
+//! The command line: one file a subcommand, each with its arguments and its `run`.
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// View planning for robots that reconstruct objects they have never seen.
+#[derive(Parser)]
+#[command(name = "prv", version, about, long_about = None)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// One variant a subcommand; each holds the arguments defined in the file of its name.
+#[derive(Subcommand)]
+enum Command {}
+
+/// What a subcommand returns: an error is printed to stderr and becomes exit code 1.
+pub type CliResult = Result<(), Box<dyn std::error::Error>>;
+
+/// Parses the command line and runs it. Exit codes: 0 done, 1 failed, 2 bad usage (clap).
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let result: CliResult = match cli.command {};
+    #[allow(unreachable_code)]
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("prv: {error}");
+            let mut source = error.source();
+            while let Some(cause) = source {
+                eprintln!("  caused by: {cause}");
+                source = cause.source();
+            }
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! The `prv` command.
+
+mod cli;
+
+fn main() -> std::process::ExitCode {
+    cli::run()
+}
