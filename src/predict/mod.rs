@@ -1,1 +1,26 @@
-//! (under construction)
+//! PRVNet: how many views an object needs, from one to five photos of it (paper, section on PRVNet).
+//!
+//! [`crop`] turns a photo into the network's input, [`Predictor`] runs the network in ONNX Runtime. The network comes
+//! out of `models/training`; [`ModelInfo`] is what its file says about it. The same photos give the same number,
+//! whatever runs beside.
+
+mod crop;
+mod error;
+mod model_info;
+mod pixels;
+mod predictor;
+mod runtime;
+mod session_pool;
+mod shipped;
+
+#[cfg(test)]
+mod crop_tests;
+#[cfg(test)]
+mod predictor_tests;
+
+pub use crop::{CROP_HALF_SIZE_M, crop};
+pub use error::PredictError;
+pub use model_info::ModelInfo;
+pub use predictor::{MAX_IMAGES, PhotoInput, Prediction, Predictor};
+pub use runtime::DYLIB_VARIABLE;
+pub use shipped::SHIPPED_MODEL;
