@@ -1,1 +1,33 @@
-//! (under construction)
+//! The arm: models, kinematics and limits. It knows nothing of cells, cameras or paths.
+//!
+//! A [`RobotModel`] is a serial chain of revolute joints with its limits, its
+//! links as simple shapes and the sources of its numbers. Its [`Kinematics`]
+//! map joint angles to `base_from_flange` and back.
+
+mod chain;
+mod described;
+mod dh;
+mod error;
+mod inverse;
+mod joint;
+mod kinematics;
+mod limits;
+mod link;
+mod model;
+mod numeric;
+mod panda;
+mod ur;
+mod wraps;
+
+pub use chain::{Chain, MAX_JOINTS, Segment};
+pub use dh::{DhConvention, DhRow};
+pub use error::RobotError;
+pub use inverse::{InverseFailure, InverseSolutions, ReachBound, UnreachableReason};
+pub use joint::Joint;
+pub use kinematics::Kinematics;
+pub use limits::{ClampedJoint, START_TOLERANCE_RAD, clamp_start, limit_violation};
+pub use link::{Link, LinkShape};
+pub use model::RobotModel;
+pub use numeric::NumericKinematics;
+pub use ur::UrParameters;
+pub use wraps::{all_wraps, nearest_wrap};

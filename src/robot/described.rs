@@ -1,0 +1,135 @@
+//! Robots that the request describes: from a DH table.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use super::dh::chain_from_dh;
+use super::{Chain, DhConvention, DhRow, Joint, Link, LinkShape, NumericKinematics, RobotError, RobotModel};
+use crate::geometry::Pose;
+
+/// Radius of the capsules that stand for links of unknown shape, metres.
+pub(super) const DEFAULT_RADIUS_M: f64 = 0.05;
+
+/// Fewest and most moving joints of a described arm.
+pub(super) const JOINTS: std::ops::RangeInclusive<usize> = 6..=7;
+
+/// Largest angle that a described joint's limit may have, radians.
+const WIDEST_RAD: f64 = 4.0 * TAU;
+
+/// Bounds of speeds (rad/s) and accelerations (rad/s2) taken as meant.
+const RATES: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
+
+pub(super) fn from_dh(rows: &[DhRow], convention: DhConvention) -> Result<RobotModel, RobotError> {
+    if !JOINTS.contains(&rows.len()) {
+        return Err(RobotError::JointCount {
+            found: rows.len(),
+            least: *JOINTS.start(),
+            most: *JOINTS.end(),
+        });
+    }
+    let chain = chain_from_dh(rows, convention, &Pose::identity())?;
+    let mut warnings = Vec::new();
+    let joints = rows
+        .iter()
+        .enumerate()
+        .map(|(i, row)| joint_from_row(i, row, &mut warnings))
+        .collect::<Result<Vec<_>, _>>()?;
+    warnings.push(format!(
+        "the links' shapes are unknown: capsules of {DEFAULT_RADIUS_M} m radius between the joints stand for them"
+    ));
+    Ok(RobotModel {
+        name: "dh".to_owned(),
+        links: links_along(&chain, DEFAULT_RADIUS_M),
+        kinematics: Arc::new(NumericKinematics::new(chain, joints.clone())?),
+        joints,
+        base_frame: "base".to_owned(),
+        flange_frame: "flange".to_owned(),
+        sources: vec![
+            "Lengths, twists and limits: the request's DH table; what it lacks is listed in the warnings."
+                .to_owned(),
+            format!(
+                "Link shapes: capsules of {DEFAULT_RADIUS_M} m radius between the joints' frames, assumed."
+            ),
+        ],
+        warnings,
+    })
+}
+
+fn joint_from_row(index: usize, row: &DhRow, warnings: &mut Vec<String>) -> Result<Joint, RobotError> {
+    let name = match &row.name {
+        Some(name) => super::error::short(name),
+        None => format!("joint_{}", index + 1),
+    };
+    let mut given_or = |value: Option<f64>, field: &str, assumed: f64, unit: &str| {
+        value.unwrap_or_else(|| {
+            warnings.push(format!("{name}: no {field} given, {assumed:.4} {unit} assumed"));
+            assumed
+        })
+    };
+    let joint = Joint {
+        lower_rad: given_or(row.lower_rad, "lower limit", -TAU, "rad"),
+        upper_rad: given_or(row.upper_rad, "upper limit", TAU, "rad"),
+        max_speed_rad_per_s: given_or(
+            row.max_speed_rad_per_s,
+            "speed limit",
+            RobotModel::ASSUMED_SPEED_RAD_PER_S,
+            "rad/s",
+        ),
+        max_acceleration_rad_per_s2: given_or(
+            row.max_acceleration_rad_per_s2,
+            "acceleration limit",
+            RobotModel::ASSUMED_ACCELERATION_RAD_PER_S2,
+            "rad/s2",
+        ),
+        name,
+        continuous: false,
+    };
+    check_joint(&joint)?;
+    Ok(joint)
+}
+
+/// Whether a described joint's limits are numbers an arm can have.
+pub(super) fn check_joint(joint: &Joint) -> Result<(), RobotError> {
+    let refuse = |field, value, least, most, hint| {
+        Err(RobotError::OutOfRange { joint: joint.name.clone(), field, value, least, most, hint })
+    };
+    const DEGREES: &str = "; degrees given as radians?";
+    if !(-WIDEST_RAD..=WIDEST_RAD).contains(&joint.lower_rad) {
+        return refuse("lower limit", joint.lower_rad, -WIDEST_RAD, WIDEST_RAD, DEGREES);
+    }
+    // Below or at the lower limit there is no room to move; NaN fails the comparison too.
+    if !(joint.upper_rad > joint.lower_rad && joint.upper_rad <= WIDEST_RAD) {
+        return refuse("upper limit", joint.upper_rad, joint.lower_rad, WIDEST_RAD, "");
+    }
+    for (field, value) in [
+        ("speed limit", joint.max_speed_rad_per_s),
+        ("acceleration limit", joint.max_acceleration_rad_per_s2),
+    ] {
+        if !RATES.contains(&value) {
+            return refuse(field, value, *RATES.start(), *RATES.end(), "");
+        }
+    }
+    Ok(())
+}
+
+/// Links as capsules from each joint's frame to the next one's; the last one
+/// ends a radius short of the flange, so that a tool there does not touch it.
+pub(super) fn links_along(chain: &Chain, radius_m: f64) -> Vec<Link> {
+    let segments = chain.segments();
+    let ends = segments.iter().map(|s| s.previous_from_joint.translation.vector);
+    let flange = chain.last_link_from_flange().translation.vector;
+    let shortened =
+        if flange.norm() > radius_m { flange * (1.0 - radius_m / flange.norm()) } else { flange * 0.0 };
+    ends.chain([shortened])
+        .enumerate()
+        .map(|(i, end)| {
+            let name = if i == 0 { "base".to_owned() } else { format!("link_{i}") };
+            // A piece shorter than the radius is inside its neighbours' round ends.
+            let start =
+                if i == 0 && end.norm() > radius_m { end * (radius_m / end.norm()) } else { end * 0.0 };
+            let long_enough = (end - start).norm() > radius_m;
+            let capsule = LinkShape::capsule(start.into(), end.into(), radius_m);
+            Link { name, shapes: if long_enough { vec![capsule] } else { Vec::new() } }
+        })
+        .collect()
+}

@@ -1,0 +1,70 @@
+//! A robot: its joints, kinematics, links and where the numbers come from.
+
+use std::sync::Arc;
+
+use super::{DhConvention, DhRow, Joint, Kinematics, Link, RobotError, panda, ur};
+
+/// A serial arm of revolute joints.
+#[derive(Debug, Clone)]
+pub struct RobotModel {
+    /// The model's name.
+    pub name: String,
+    /// The joints from base to flange.
+    pub joints: Vec<Joint>,
+    /// Forward and inverse kinematics.
+    pub kinematics: Arc<dyn Kinematics>,
+    /// The links from base to last, one more than joints, in the order of
+    /// [`Kinematics::link_poses_into`].
+    pub links: Vec<Link>,
+    /// The name of the frame that all poses of this arm refer to.
+    pub base_frame: String,
+    /// The name of the frame that inverse kinematics places.
+    pub flange_frame: String,
+    /// One line for each group of numbers: where it comes from or why it is assumed.
+    pub sources: Vec<String>,
+    /// What was left out or assumed about a described robot (empty for built-in models).
+    pub warnings: Vec<String>,
+}
+
+impl RobotModel {
+    /// Assumed joint speed of a described robot that states none, rad/s: a
+    /// third of what arms of this size do.
+    pub const ASSUMED_SPEED_RAD_PER_S: f64 = 1.0;
+
+    /// Assumed joint acceleration where makers publish none, rad/s2. Arms of
+    /// this size do several times that, so that plans stay followable.
+    pub const ASSUMED_ACCELERATION_RAD_PER_S2: f64 = 5.0;
+
+    /// The names [`RobotModel::named`] knows.
+    pub fn names() -> Vec<&'static str> {
+        ur::NAMES.iter().copied().chain([panda::NAME]).collect()
+    }
+
+    /// A built-in model, its name in any case.
+    pub fn named(name: &str) -> Result<Self, RobotError> {
+        let lower = name.to_ascii_lowercase();
+        if lower == panda::NAME {
+            return panda::model();
+        }
+        match ur::model(&lower) {
+            Some(model) => model,
+            None => Err(RobotError::UnknownModel {
+                name: super::error::short(name),
+                known: Self::names().join(", "),
+            }),
+        }
+    }
+
+    /// An arm of six or seven joints from its DH table (metres, radians).
+    ///
+    /// Rows without limits get assumed ones, each said in `warnings`. The
+    /// links are capsules between the frames' origins. Errors name the row and the field.
+    pub fn from_dh(rows: &[DhRow], convention: DhConvention) -> Result<Self, RobotError> {
+        super::described::from_dh(rows, convention)
+    }
+
+    /// A joint state within the limits; see [`super::clamp_start`].
+    pub fn clamp_start(&self, start_rad: &[f64]) -> Result<(Vec<f64>, Vec<super::ClampedJoint>), RobotError> {
+        super::clamp_start(&self.joints, start_rad)
+    }
+}
