@@ -1,1 +1,13 @@
-//! (under construction)
+//! How many views an object needs: one NeRF per view set, a curve through their
+//! PSNR, and the first number of views where one more view stops paying.
+//!
+//! Paper: section "Object-Specific Required Number of Views" and equation 1.
+//!
+//! - [`lognormal`]: the curve family C(v) and the reading of v* off it.
+//! - [`fit`]: orthogonal distance regression of that curve, with the uncertainty of v*.
+
+pub mod fit;
+pub mod lognormal;
+
+
+

@@ -1,0 +1,266 @@
+//! Orthogonal distance regression of the log-normal curve.
+//!
+//! Both axes carry unit weight (one view weighs as much as one dB), which is what
+//! the paper's authors' fit used. Each point's foot on the curve is found by
+//! Newton's method; the four parameters by Levenberg-Marquardt on the signed
+//! orthogonal distances (Boggs, Byrd and Schnabel 1987 in its reduced form).
+
+use nalgebra::{Matrix4, Vector4};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::lognormal::{LogNormalCurve, MAX_VIEWS};
+
+/// One measured point: views and the PSNR they gave, dB.
+pub type CurvePoint = (f64, f64);
+
+/// A fitted curve and how well it fits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveFit {
+    /// The curve.
+    pub curve: LogNormalCurve,
+    /// Root mean square of the vertical residuals, dB.
+    pub rms_db: f64,
+}
+
+/// Why no curve could be fitted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// Fewer points than parameters.
+    #[error("{given} curve points, must be at least {least}")]
+    TooFewPoints {
+        /// Points given.
+        given: usize,
+        /// Least number.
+        least: usize,
+    },
+    /// A point is not a finite number of views above zero and a finite PSNR.
+    #[error("curve point {index} is ({views}, {psnr_db}), must be finite with views above 0")]
+    BadPoint {
+        /// Its index.
+        index: usize,
+        /// Its views.
+        views: f64,
+        /// Its PSNR.
+        psnr_db: f64,
+    },
+}
+
+/// Fewest points a fit takes: one more than it has parameters.
+const LEAST_POINTS: usize = 5;
+const BOOTSTRAP_DRAWS: usize = 200;
+
+/// Fits the curve to `points` (any order).
+///
+/// # Errors
+/// [`FitError`] for too few or non-finite points.
+pub fn fit_curve(points: &[CurvePoint]) -> Result<CurveFit, FitError> {
+    if points.len() < LEAST_POINTS {
+        return Err(FitError::TooFewPoints { given: points.len(), least: LEAST_POINTS });
+    }
+    for (index, &(views, psnr_db)) in points.iter().enumerate() {
+        if !(views.is_finite() && views > 0.0 && psnr_db.is_finite()) {
+            return Err(FitError::BadPoint { index, views, psnr_db });
+        }
+    }
+    Ok(refine(points, starting_curve(points)))
+}
+
+/// The standard deviation of v* (views) by residual bootstrap: curves are fitted
+/// to the fitted values plus residuals drawn with replacement; deterministic in `seed`.
+/// A draw whose curve has no v* counts as [`MAX_VIEWS`].
+pub fn required_views_sigma(points: &[CurvePoint], fit: &CurveFit, alpha_db: f64, seed: u64) -> f64 {
+    let residuals: Vec<f64> = points.iter().map(|&(x, y)| y - fit.curve.value(x)).collect();
+    if residuals.is_empty() {
+        return 0.0;
+    }
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let draws: Vec<f64> = (0..BOOTSTRAP_DRAWS)
+        .map(|_| {
+            let redrawn: Vec<CurvePoint> = points
+                .iter()
+                .map(|&(x, _)| (x, fit.curve.value(x) + residuals[rng.random_range(0..residuals.len())]))
+                .collect();
+            let refit = refine(&redrawn, fit.curve);
+            f64::from(refit.curve.required_views(alpha_db).unwrap_or(MAX_VIEWS))
+        })
+        .collect();
+    let mean = draws.iter().sum::<f64>() / draws.len() as f64;
+    (draws.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (draws.len() - 1) as f64).sqrt()
+}
+
+/// The best curve of a grid over `x_c` and `width`, with `y0` and `amplitude` by linear least squares.
+fn starting_curve(points: &[CurvePoint]) -> LogNormalCurve {
+    let mut best = (f64::INFINITY, LogNormalCurve { y0: 0.0, amplitude: 1.0, x_c: 5.0, width: 1.0 });
+    for i in 0..24 {
+        for j in 0..16 {
+            let x_c = 0.5 * 1.2f64.powi(i);
+            let width = 0.15 * 1.2f64.powi(j);
+            let unit = LogNormalCurve { y0: 0.0, amplitude: 1.0, x_c, width };
+            let n = points.len() as f64;
+            let (mut sp, mut sy, mut spp, mut spy) = (0.0, 0.0, 0.0, 0.0);
+            for &(x, y) in points {
+                let p = unit.value(x);
+                sp += p;
+                sy += y;
+                spp += p * p;
+                spy += p * y;
+            }
+            let determinant = n * spp - sp * sp;
+            if determinant < 1e-9 {
+                continue;
+            }
+            let amplitude = (n * spy - sp * sy) / determinant;
+            let y0 = (sy - amplitude * sp) / n;
+            let curve = LogNormalCurve { y0, amplitude, x_c, width };
+            let cost = points.iter().map(|&(x, y)| (y - curve.value(x)).powi(2)).sum::<f64>();
+            if cost < best.0 {
+                best = (cost, curve);
+            }
+        }
+    }
+    best.1
+}
+
+/// Levenberg-Marquardt from `start`.
+fn refine(points: &[CurvePoint], start: LogNormalCurve) -> CurveFit {
+    let mut parameters = Vector4::new(start.y0, start.amplitude, start.x_c.ln(), start.width.ln());
+    let mut damping = 1e-3;
+    let (mut cost, mut hessian, mut gradient) = normal_equations(points, &curve_of(&parameters));
+    for _ in 0..200 {
+        let mut damped: Matrix4<f64> = hessian;
+        for k in 0..4 {
+            damped[(k, k)] += damping * hessian[(k, k)].max(1e-9);
+        }
+        let Some(step) = damped.cholesky().map(|c| c.solve(&gradient)) else {
+            damping *= 10.0;
+            continue;
+        };
+        let mut next = parameters + step;
+        // Widths outside this range are flat lines or steps, where the parameters mean nothing.
+        next[2] = next[2].clamp(-3.0, 7.0);
+        next[3] = next[3].clamp(-3.0, 2.0);
+        let (next_cost, next_hessian, next_gradient) = normal_equations(points, &curve_of(&next));
+        if next_cost < cost {
+            let gain = (cost - next_cost) / cost.max(1e-300);
+            (parameters, cost, hessian, gradient) = (next, next_cost, next_hessian, next_gradient);
+            damping = (damping * 0.3).max(1e-12);
+            if gain < 1e-12 {
+                break;
+            }
+        } else {
+            damping *= 4.0;
+            if damping > 1e12 {
+                break;
+            }
+        }
+    }
+    let curve = curve_of(&parameters);
+    let squares = points.iter().map(|&(x, y)| (y - curve.value(x)).powi(2)).sum::<f64>();
+    CurveFit { curve, rms_db: (squares / points.len().max(1) as f64).sqrt() }
+}
+
+fn curve_of(p: &Vector4<f64>) -> LogNormalCurve {
+    LogNormalCurve { y0: p[0], amplitude: p[1], x_c: p[2].exp(), width: p[3].exp() }
+}
+
+/// Sum of squared orthogonal distances, and the Gauss-Newton matrix and gradient for reducing it.
+fn normal_equations(points: &[CurvePoint], curve: &LogNormalCurve) -> (f64, Matrix4<f64>, Vector4<f64>) {
+    let (mut cost, mut hessian, mut gradient) = (0.0, Matrix4::zeros(), Vector4::zeros());
+    for &(x, y) in points {
+        let foot = foot_on_curve(x, y, curve);
+        let slope = curve.slope(foot);
+        let (dx, dy) = (x - foot, y - curve.value(foot));
+        // At the foot the residual is normal to the curve, so its length moves with
+        // the parameters by the curve's vertical shift seen along that normal.
+        let tilt = 1.0 / (1.0 + slope * slope).sqrt();
+        let distance = (dx * dx + dy * dy).sqrt().copysign(dy);
+        let row = Vector4::from(curve.parameter_gradient(foot)) * tilt;
+        cost += distance * distance;
+        hessian += row * row.transpose();
+        gradient += row * distance;
+    }
+    (cost, hessian, gradient)
+}
+
+/// The views coordinate of the point on the curve that is nearest to (x, y).
+fn foot_on_curve(x: f64, y: f64, curve: &LogNormalCurve) -> f64 {
+    let mut foot = x;
+    let distance = |t: f64| (x - t).powi(2) + (y - curve.value(t)).powi(2);
+    let mut best = distance(foot);
+    for _ in 0..20 {
+        let slope = curve.slope(foot);
+        // Gauss-Newton on the squared distance; halved until it descends.
+        let mut step = ((x - foot) + slope * (y - curve.value(foot))) / (1.0 + slope * slope);
+        let mut moved = false;
+        for _ in 0..8 {
+            let candidate = (foot + step).max(0.05);
+            let at = distance(candidate);
+            if at < best {
+                (foot, best, moved) = (candidate, at, true);
+                break;
+            }
+            step *= 0.5;
+        }
+        if !moved || step.abs() < 1e-9 {
+            break;
+        }
+    }
+    foot
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve_points(curve: &LogNormalCurve) -> Vec<CurvePoint> {
+        (3..50).step_by(2).chain([100]).map(|v| (f64::from(v), curve.value(f64::from(v)))).collect()
+    }
+
+    #[test]
+    fn exact_points_give_back_their_curve() {
+        for (amplitude, x_c, width) in [(15.0, 5.0, 0.8), (22.0, 9.0, 1.1), (8.0, 3.0, 0.6)] {
+            let truth = LogNormalCurve { y0: 12.0, amplitude, x_c, width };
+            let fit = fit_curve(&curve_points(&truth)).unwrap();
+            assert!(fit.rms_db < 1e-4, "{fit:?}");
+            assert_eq!(fit.curve.required_views(0.02), truth.required_views(0.02));
+        }
+    }
+
+    #[test]
+    fn noise_of_a_tenth_of_a_db_moves_v_star_by_a_few_views_and_sigma_says_so() {
+        let truth = LogNormalCurve { y0: 12.0, amplitude: 20.0, x_c: 6.0, width: 0.9 };
+        let expected = f64::from(truth.required_views(0.02).unwrap());
+        let mut misses = Vec::new();
+        let mut sigmas = Vec::new();
+        for seed in 0..20 {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let points: Vec<CurvePoint> =
+                curve_points(&truth).into_iter().map(|(x, y)| (x, y + rng.random_range(-0.17..0.17))).collect();
+            let fit = fit_curve(&points).unwrap();
+            misses.push((f64::from(fit.curve.required_views(0.02).unwrap()) - expected).abs());
+            sigmas.push(required_views_sigma(&points, &fit, 0.02, seed));
+        }
+        let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+        assert!(mean(&misses) < 6.0, "{misses:?}");
+        assert!(mean(&sigmas) > 0.3 * mean(&misses) && mean(&sigmas) < 5.0 * mean(&misses) + 1.0, "{sigmas:?} {misses:?}");
+    }
+
+    #[test]
+    fn the_orthogonal_fit_forgives_an_error_in_views_where_the_curve_is_steep() {
+        let truth = LogNormalCurve { y0: 10.0, amplitude: 20.0, x_c: 6.0, width: 0.5 };
+        let mut points = curve_points(&truth);
+        // One steep point measured half a view early.
+        points[1].1 = truth.value(points[1].0 + 0.5);
+        let fit = fit_curve(&points).unwrap();
+        let off = f64::from(fit.curve.required_views(0.02).unwrap()) - f64::from(truth.required_views(0.02).unwrap());
+        assert!(off.abs() <= 2.0, "{off}");
+    }
+
+    #[test]
+    fn too_few_points_and_nan_are_refused_with_their_numbers() {
+        assert_eq!(fit_curve(&[(3.0, 20.0)]), Err(FitError::TooFewPoints { given: 1, least: 5 }));
+        let points = [(3.0, 20.0), (5.0, f64::NAN), (7.0, 21.0), (9.0, 22.0), (11.0, 22.5)];
+        assert!(matches!(fit_curve(&points), Err(FitError::BadPoint { index: 1, .. })));
+    }
+}
