@@ -1,5 +1,7 @@
 //! The command line: one file a subcommand, each with its arguments and its `run`.
 
+mod health;
+
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -14,7 +16,10 @@ struct Cli {
 
 /// One variant a subcommand; each holds the arguments defined in the file of its name.
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    /// Ask a running service whether it is ready.
+    Health(health::Args),
+}
 
 /// What a subcommand returns: an error is printed to stderr and becomes exit code 1.
 pub type CliResult = Result<(), Box<dyn std::error::Error>>;
@@ -22,8 +27,9 @@ pub type CliResult = Result<(), Box<dyn std::error::Error>>;
 /// Parses the command line and runs it. Exit codes: 0 done, 1 failed, 2 bad usage (clap).
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
-    let result: CliResult = match cli.command {};
-    #[allow(unreachable_code)]
+    let result: CliResult = match cli.command {
+        Command::Health(args) => health::run(&args),
+    };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

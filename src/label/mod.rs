@@ -8,6 +8,7 @@
 
 pub mod fit;
 pub mod lognormal;
+pub mod store;
 
 
 

@@ -1,0 +1,89 @@
+# What a newcomer needs: `make run` and `make test`. The rest rebuilds the model.
+
+PYTHON    ?= python3
+JOBS      ?= $(shell nproc)
+OBJECTS   ?= objects
+LABELS    ?= models/labels.csv
+INPUTS    ?= models/training/data/inputs
+RUN       ?= models/training/runs/prvnet
+ENCODER   ?= efficientnet_lite0
+TRAIN_ENV := models/training/.venv
+SUDO      := $(if $(filter 0,$(shell id -u)),,sudo)
+
+.PHONY: run test system-packages build openapi views-table bench objects label inputs train-env train test-training
+
+## Serves on 127.0.0.1:8080 with the model in models/.
+run: system-packages
+	cargo run --release -- serve
+
+## Every test of the service; the training package's own tests are `make test-training`.
+test: system-packages
+	cargo test --release
+	cd models/training && $(CURDIR)/.venv/bin/python -m pytest -q -m "not torch"
+
+build: system-packages
+	cargo build --release
+
+bench: system-packages
+	cargo bench
+
+# Installs only what is missing: a linker for Rust, pip for ONNX Runtime's wheel, curl and
+# jq for the README's session, pytest for the training package's light tests.
+system-packages:
+	@missing=""; \
+	command -v cc >/dev/null || missing="$$missing build-essential"; \
+	command -v $(PYTHON) >/dev/null || missing="$$missing python3"; \
+	$(PYTHON) -m pip --version >/dev/null 2>&1 || missing="$$missing python3-pip"; \
+	$(PYTHON) -c 'import ensurepip, venv' >/dev/null 2>&1 || missing="$$missing python3-venv"; \
+	command -v curl >/dev/null || missing="$$missing curl"; \
+	command -v jq >/dev/null || missing="$$missing jq"; \
+	if [ -n "$$missing" ]; then \
+	  echo "installing:$$missing"; \
+	  $(SUDO) apt-get update -q && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing; \
+	fi
+	@command -v cargo >/dev/null || { echo "Rust is missing: install cargo 1.88 or newer first" >&2; exit 1; }
+
+test: .venv/bin/pytest
+.venv/bin/pytest: models/training/requirements-test.txt | system-packages
+	$(PYTHON) -m venv .venv
+	.venv/bin/pip install -q --disable-pip-version-check -r $<
+	@touch $@
+
+## The committed API description and view table, made again.
+openapi:
+	cargo run --release -- openapi > openapi/openapi.json
+
+## Debian's furniture models (CC-BY 3.0 and CC0), unpacked into an ignored folder.
+objects: $(OBJECTS)/.done
+$(OBJECTS)/.done:
+	mkdir -p $(OBJECTS)/deb
+	cd $(OBJECTS)/deb && ( ls sweethome3d-furniture_*.deb >/dev/null 2>&1 \
+	  || apt-get download sweethome3d-furniture \
+	  || ( $(SUDO) apt-get update -q && apt-get download sweethome3d-furniture ) )
+	cd $(OBJECTS) && dpkg-deb -x deb/sweethome3d-furniture_*.deb unpacked
+	mv $(OBJECTS)/unpacked/usr/share/sweethome3d/furniture/*.sh3f $(OBJECTS)/
+	rm -rf $(OBJECTS)/unpacked $(OBJECTS)/deb
+	touch $@
+
+## Labels objects; may be stopped and started again at any time, finished objects stay.
+label: $(OBJECTS)/.done build
+	target/release/prv label --objects $(OBJECTS) --out $(LABELS) --jobs $(JOBS) --resume
+
+## The initial photos of every labelled object, as the network sees them.
+inputs: $(OBJECTS)/.done build
+	target/release/prv inputs --objects $(OBJECTS) --labels $(LABELS) --out $(INPUTS)
+
+train-env: $(TRAIN_ENV)/.done
+$(TRAIN_ENV)/.done: models/training/requirements.txt
+	$(PYTHON) -m venv $(TRAIN_ENV)
+	$(TRAIN_ENV)/bin/pip install -q --disable-pip-version-check -r $<
+	touch $@
+
+## Trains PRVNet on the labels and exports models/prvnet.onnx.
+train: inputs train-env
+	cd models/training && .venv/bin/python -m prvnet.train --labels $(abspath $(LABELS)) --inputs $(abspath $(INPUTS)) \
+	  --encoder $(ENCODER) --out $(abspath $(RUN))
+	cd models/training && .venv/bin/python -m prvnet.export --run $(abspath $(RUN)) --out $(abspath models/prvnet.onnx)
+
+test-training: train-env
+	cd models/training && .venv/bin/python -m pytest -q

@@ -1,0 +1,129 @@
+//! `prv label`: how many views each object of a folder needs.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use prv::label::measure::{LabelSettings, measure};
+use prv::label::protocol::{seed_of, view_counts};
+use prv::label::store::LabelStore;
+use prv::render::{ObjectEntry, find_objects};
+
+use super::CliResult;
+
+/// Labels objects with the number of views a NeRF of them needs; one CSV row an object.
+///
+/// May be killed at any time: a finished object is on disk before the next one starts.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Folder of objects: .sh3f libraries, OBJ, glTF.
+    #[arg(long, env = "PRV_OBJECTS")]
+    objects: PathBuf,
+    /// File to append to.
+    #[arg(long, env = "PRV_LABELS", default_value = "labels.csv")]
+    out: PathBuf,
+    /// Part of the objects to label, as i/n with 0 <= i < n; the parts do not overlap.
+    #[arg(long, env = "PRV_SHARD", default_value = "0/1")]
+    shard: Shard,
+    /// Continue a file that has rows; without it a file that has rows is left alone.
+    #[arg(long, env = "PRV_RESUME")]
+    resume: bool,
+    /// Objects labelled side by side, one thread each; 0 for one a core.
+    #[arg(long, env = "PRV_JOBS", default_value_t = 1)]
+    jobs: usize,
+    /// Stop after this many objects of the shard (they are in random order).
+    #[arg(long, env = "PRV_LIMIT")]
+    limit: Option<usize>,
+    /// Seed of the run: with the object's key it fixes sizes, test views and NeRF seeds.
+    #[arg(long, env = "PRV_SEED", default_value_t = 0)]
+    seed: u64,
+    /// Print one JSON line an object to stdout.
+    #[arg(long, env = "PRV_JSON")]
+    json: bool,
+}
+
+/// Part `index` of `count`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Shard {
+    index: u64,
+    count: u64,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let bad = || format!("{text:?} is not a shard, must be i/n with 0 <= i < n, as in 0/4");
+        let (index, count) = text.split_once('/').ok_or_else(bad)?;
+        let shard = Self { index: index.parse().map_err(|_| bad())?, count: count.parse().map_err(|_| bad())? };
+        if shard.index < shard.count { Ok(shard) } else { Err(bad()) }
+    }
+}
+
+/// Runs the labelling.
+pub fn run(args: &Args) -> CliResult {
+    let store = LabelStore::open(&args.out)?;
+    if !store.is_empty() && !args.resume {
+        return Err(format!(
+            "{} holds {} finished objects; give --resume to continue it",
+            args.out.display(),
+            store.len()
+        )
+        .into());
+    }
+    // Random order by hash, so that what is finished at any time is a fair sample, on any number of machines.
+    let mut entries: Vec<ObjectEntry> = find_objects(&args.objects)?;
+    entries.sort_by_cached_key(|entry| seed_of(&entry.key, 0));
+    let all = entries.len();
+    entries.retain(|entry| seed_of(&entry.key, 1) % args.shard.count == args.shard.index);
+    entries.truncate(args.limit.unwrap_or(usize::MAX));
+    entries.retain(|entry| !store.is_finished(&entry.key));
+    eprintln!("{all} objects, {} of this shard to label, {} finished", entries.len(), store.len());
+
+    let bar = ProgressBar::new((entries.len() * view_counts().len()) as u64).with_style(
+        ProgressStyle::with_template("{elapsed_precise} [{wide_bar}] {pos}/{len} NeRFs, {eta_precise} left {msg}")?,
+    );
+    let settings = LabelSettings { run_seed: args.seed, ..LabelSettings::default() };
+    let jobs = if args.jobs == 0 { std::thread::available_parallelism()?.get() } else { args.jobs };
+    let store = Mutex::new(store);
+    let (next, failed) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let work = || -> Result<(), String> {
+        while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
+            match measure(entry, &settings, &mut |_, _| bar.inc(1)) {
+                Ok(record) => {
+                    let mut store = store.lock().map_err(|e| e.to_string())?;
+                    store.append(&record).map_err(|e| e.to_string())?;
+                    bar.set_message(format!("{} v*={:?}", record.object, record.v_star));
+                    if args.json {
+                        let line = serde_json::json!({
+                            "object": record.object, "radius_m": record.radius_m, "status": record.status.word(),
+                            "v_star": record.v_star, "v_star_sigma": record.v_star_sigma,
+                            "rms_db": record.rms_db, "psnr_db": record.psnr_db, "cpu_s": record.cpu_s,
+                        });
+                        println!("{line}");
+                    }
+                }
+                Err(error) => {
+                    failed.fetch_add(1, Ordering::Relaxed);
+                    bar.suspend(|| eprintln!("{}: {error}", entry.key));
+                }
+            }
+        }
+        Ok(())
+    };
+    let outcomes: Vec<Result<(), String>> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(work)).collect();
+        workers
+            .into_iter()
+            .map(|worker| worker.join().unwrap_or_else(|_| Err("a worker panicked".into())))
+            .collect()
+    });
+    bar.finish();
+    outcomes.into_iter().collect::<Result<(), String>>()?;
+    match failed.into_inner() {
+        0 => Ok(()),
+        n => Err(format!("{n} objects could not be labelled; see the lines above").into()),
+    }
+}

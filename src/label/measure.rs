@@ -1,0 +1,182 @@
+//! Measures one object: renders its view sets, trains a NeRF on each, fits the curve.
+
+use std::time::Duration;
+
+use super::fit::{CurvePoint, FitError, fit_curve, required_views_sigma};
+use super::protocol::{
+    CEILING_VIEWS, MIN_COVERAGE, PAPER_ALPHA_DB, VIEW_RADIUS_M, label_camera, radius_draws, seed_of,
+    test_directions, view_counts,
+};
+use super::store::{LabelRecord, LabelStatus};
+use crate::geometry::{Direction, Point, Pose};
+use crate::imaging::{Camera, PosedImage};
+use crate::nerf::{Bounds, NerfError, NerfSettings, train};
+use crate::render::{Mesh, MeshError, ObjectEntry, RenderSettings, Renderer};
+use crate::views::{Band, ViewSpace, ViewsError, five_initial_views, tammes};
+
+/// Why an object got no label.
+#[derive(Debug, thiserror::Error)]
+pub enum LabelError {
+    /// Its model could not be loaded.
+    #[error("model: {0}")]
+    Mesh(#[from] MeshError),
+    /// A view set could not be made.
+    #[error("views: {0}")]
+    Views(#[from] ViewsError),
+    /// A NeRF could not be trained.
+    #[error("NeRF: {0}")]
+    Nerf(#[from] NerfError),
+    /// The curve could not be fitted.
+    #[error("curve: {0}")]
+    Fit(#[from] FitError),
+}
+
+/// How labels are measured.
+#[derive(Clone, Debug)]
+pub struct LabelSettings {
+    /// Training of every NeRF; one budget for all view sets and objects, since v* moves with it.
+    pub nerf: NerfSettings,
+    /// Seed of the whole run; with the object's key it fixes size, test views and NeRF seeds.
+    pub run_seed: u64,
+}
+
+impl Default for LabelSettings {
+    fn default() -> Self {
+        Self { nerf: NerfSettings::label(), run_seed: 0 }
+    }
+}
+
+/// Labels one object. `progress` is called after each NeRF with (done, all).
+/// Deterministic in the object, its key and the settings, CPU seconds aside.
+///
+/// # Errors
+/// [`LabelError`] says which part failed.
+pub fn measure(
+    entry: &ObjectEntry,
+    settings: &LabelSettings,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<LabelRecord, LabelError> {
+    let started = thread_cpu_time();
+    let seed = seed_of(&entry.key, settings.run_seed);
+    let mesh = entry.load()?;
+    let (radius_m, renderer) = sized(&mesh, seed);
+    let photographer = Photographer { renderer, render: RenderSettings::default(), camera: label_camera() };
+    let tests = photographer.take(&test_directions(seed)?);
+
+    let counts = view_counts();
+    let bounds = Bounds { center: Point::origin(), half_extent_m: radius_m * 1.02 };
+    let (mut psnr_db, mut ssim) = (Vec::new(), Vec::new());
+    for (index, &count) in counts.iter().enumerate() {
+        let photos = photographer.take(&tammes(count, Band::DEFAULT)?.directions);
+        let nerf_settings = NerfSettings { seed: seed.wrapping_add(count as u64), ..settings.nerf.clone() };
+        let nerf = train(&photos, &bounds, &nerf_settings, &mut |_| {})?;
+        let quality = nerf.evaluate(&tests);
+        psnr_db.push(quality.psnr_db);
+        ssim.push(quality.ssim);
+        progress(index + 1, counts.len());
+    }
+
+    let points: Vec<CurvePoint> = counts.iter().zip(&psnr_db).map(|(&v, &p)| (v as f64, p)).collect();
+    let fit = fit_curve(&points)?;
+    let v_star = fit.curve.required_views(PAPER_ALPHA_DB);
+    Ok(LabelRecord {
+        object: entry.key.clone(),
+        name: entry.name.clone(),
+        category: entry.category.clone(),
+        licence: entry.licence.clone(),
+        radius_m,
+        seed,
+        status: status(&points, v_star),
+        v_star,
+        v_star_sigma: required_views_sigma(&points, &fit, PAPER_ALPHA_DB, seed),
+        curve: fit.curve,
+        rms_db: fit.rms_db,
+        psnr_db,
+        ssim,
+        cpu_s: (thread_cpu_time() - started).as_secs_f64(),
+    })
+}
+
+fn status(points: &[CurvePoint], v_star: Option<u32>) -> LabelStatus {
+    let ceiling = points.iter().find(|p| p.0 as usize == CEILING_VIEWS).map_or(f64::INFINITY, |p| p.1);
+    match v_star {
+        None => LabelStatus::NoPlateau,
+        Some(_) if points.iter().any(|p| p.1 > ceiling) => LabelStatus::NotConverged,
+        Some(_) => LabelStatus::Ok,
+    }
+}
+
+/// The mesh about the origin at the first drawn radius at which it covers enough of the
+/// camera's frame; the last draw when none does.
+fn sized(mesh: &Mesh, seed: u64) -> (f64, Renderer) {
+    let draws = radius_draws(seed);
+    let mut sized = None;
+    for radius_m in draws {
+        let renderer = Renderer::new(&mesh.fitted(Point::origin(), radius_m));
+        let enough = coverage(&renderer) > MIN_COVERAGE;
+        sized = Some((radius_m, renderer));
+        if enough {
+            break;
+        }
+    }
+    sized.unwrap_or_else(|| (draws[0], Renderer::new(&mesh.fitted(Point::origin(), draws[0]))))
+}
+
+/// Mean share of covered pixels over the five initial views of a D435, at an eighth of its resolution.
+fn coverage(renderer: &Renderer) -> f64 {
+    let full = Camera::REALSENSE_D435;
+    let camera = Camera {
+        width: full.width / 8,
+        height: full.height / 8,
+        fx: full.fx / 8.0,
+        fy: full.fy / 8.0,
+        cx: full.cx / 8.0,
+        cy: full.cy / 8.0,
+        ..full
+    };
+    let directions: Vec<Direction> = five_initial_views().iter().map(|v| v.direction).collect();
+    let shares = directions.iter().map(|direction| {
+        let image = renderer.render(&camera, &pose(direction), &RenderSettings::default());
+        image.pixels().map(|p| f64::from(p[3]) / 255.0).sum::<f64>() / f64::from(camera.width * camera.height)
+    });
+    shares.sum::<f64>() / directions.len() as f64
+}
+
+fn pose(direction: &Direction) -> Pose {
+    let space = ViewSpace { center_in_base: Point::origin(), radius_m: VIEW_RADIUS_M, band: Band::DEFAULT };
+    space.pose(direction, 0.0)
+}
+
+struct Photographer {
+    renderer: Renderer,
+    render: RenderSettings,
+    camera: Camera,
+}
+
+impl Photographer {
+    fn take(&self, directions: &[Direction]) -> Vec<PosedImage> {
+        directions
+            .iter()
+            .map(|direction| {
+                let world_from_camera = pose(direction);
+                let image = self.renderer.render(&self.camera, &world_from_camera, &self.render);
+                PosedImage { image, camera: self.camera, world_from_camera }
+            })
+            .collect()
+    }
+}
+
+/// CPU time of this thread: what a label costs, however busy the machine is. On systems
+/// without a thread clock it is wall time.
+fn thread_cpu_time() -> Duration {
+    #[cfg(target_os = "linux")]
+    {
+        let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+        // SAFETY: `time` is a valid, writable timespec for the whole call.
+        if unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &mut time) } == 0 {
+            return Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec.unsigned_abs() as u32);
+        }
+    }
+    static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+    START.get_or_init(std::time::Instant::now).elapsed()
+}
