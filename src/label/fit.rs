@@ -235,15 +235,20 @@ mod tests {
         let mut sigmas = Vec::new();
         for seed in 0..20 {
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
-            let points: Vec<CurvePoint> =
-                curve_points(&truth).into_iter().map(|(x, y)| (x, y + rng.random_range(-0.17..0.17))).collect();
+            let points: Vec<CurvePoint> = curve_points(&truth)
+                .into_iter()
+                .map(|(x, y)| (x, y + rng.random_range(-0.17..0.17)))
+                .collect();
             let fit = fit_curve(&points).unwrap();
             misses.push((f64::from(fit.curve.required_views(0.02).unwrap()) - expected).abs());
             sigmas.push(required_views_sigma(&points, &fit, 0.02, seed));
         }
         let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
         assert!(mean(&misses) < 6.0, "{misses:?}");
-        assert!(mean(&sigmas) > 0.3 * mean(&misses) && mean(&sigmas) < 5.0 * mean(&misses) + 1.0, "{sigmas:?} {misses:?}");
+        assert!(
+            mean(&sigmas) > 0.3 * mean(&misses) && mean(&sigmas) < 5.0 * mean(&misses) + 1.0,
+            "{sigmas:?} {misses:?}"
+        );
     }
 
     #[test]
@@ -253,7 +258,8 @@ mod tests {
         // One steep point measured half a view early.
         points[1].1 = truth.value(points[1].0 + 0.5);
         let fit = fit_curve(&points).unwrap();
-        let off = f64::from(fit.curve.required_views(0.02).unwrap()) - f64::from(truth.required_views(0.02).unwrap());
+        let off = f64::from(fit.curve.required_views(0.02).unwrap())
+            - f64::from(truth.required_views(0.02).unwrap());
         assert!(off.abs() <= 2.0, "{off}");
     }
 

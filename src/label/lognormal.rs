@@ -113,7 +113,8 @@ mod tests {
 
     #[test]
     fn the_parameter_gradient_matches_finite_differences() {
-        let at = |p: [f64; 4]| LogNormalCurve { y0: p[0], amplitude: p[1], x_c: p[2].exp(), width: p[3].exp() };
+        let at =
+            |p: [f64; 4]| LogNormalCurve { y0: p[0], amplitude: p[1], x_c: p[2].exp(), width: p[3].exp() };
         let p = [14.0, 17.0, 6.0f64.ln(), 0.9f64.ln()];
         for v in [2.0, 9.0, 40.0] {
             let analytic = at(p).parameter_gradient(v);

@@ -12,7 +12,7 @@ use crate::geometry::{Direction, Point, Pose};
 use crate::imaging::{Camera, PosedImage};
 use crate::nerf::{Bounds, NerfError, NerfSettings, train};
 use crate::render::{Mesh, MeshError, ObjectEntry, RenderSettings, Renderer};
-use crate::views::{Band, ViewSpace, ViewsError, five_initial_views, tammes};
+use crate::views::{Band, ViewSpace, ViewsError, initial_views_five, tammes};
 
 /// Why an object got no label.
 #[derive(Debug, thiserror::Error)]
@@ -134,7 +134,7 @@ fn coverage(renderer: &Renderer) -> f64 {
         cy: full.cy / 8.0,
         ..full
     };
-    let directions: Vec<Direction> = five_initial_views().iter().map(|v| v.direction).collect();
+    let directions: Vec<Direction> = initial_views_five().iter().map(|v| v.direction).collect();
     let shares = directions.iter().map(|direction| {
         let image = renderer.render(&camera, &pose(direction), &RenderSettings::default());
         image.pixels().map(|p| f64::from(p[3]) / 255.0).sum::<f64>() / f64::from(camera.width * camera.height)

@@ -8,7 +8,5 @@
 
 pub mod fit;
 pub mod lognormal;
+pub mod protocol;
 pub mod store;
-
-
-

@@ -90,8 +90,20 @@ pub enum StoreError {
 /// The columns of `labels.csv`, in order.
 pub fn header() -> Vec<String> {
     let fixed = [
-        "object", "name", "category", "licence", "radius_m", "seed", "status", "v_star", "v_star_sigma", "y0",
-        "amplitude", "x_c", "width", "rms_db",
+        "object",
+        "name",
+        "category",
+        "licence",
+        "radius_m",
+        "seed",
+        "status",
+        "v_star",
+        "v_star_sigma",
+        "y0",
+        "amplitude",
+        "x_c",
+        "width",
+        "rms_db",
     ];
     let counts = view_counts();
     fixed
@@ -108,7 +120,10 @@ fn row(record: &LabelRecord) -> Vec<String> {
     [record.object.clone(), record.name.clone(), record.category.clone(), record.licence.clone()]
         .into_iter()
         .chain([format!("{:.5}", record.radius_m), record.seed.to_string(), record.status.word().to_string()])
-        .chain([record.v_star.map_or_else(String::new, |v| v.to_string()), format!("{:.2}", record.v_star_sigma)])
+        .chain([
+            record.v_star.map_or_else(String::new, |v| v.to_string()),
+            format!("{:.2}", record.v_star_sigma),
+        ])
         .chain([curve.y0, curve.amplitude, curve.x_c, curve.width, record.rms_db].map(|x| format!("{x:.5}")))
         .chain(record.psnr_db.iter().map(|x| format!("{x:.4}")))
         .chain(record.ssim.iter().map(|x| format!("{x:.5}")))
