@@ -1,6 +1,8 @@
 //! The command line: one file a subcommand, each with its arguments and its `run`.
 
 mod health;
+mod camera_flag;
+mod predict;
 
 use std::process::ExitCode;
 
@@ -19,6 +21,8 @@ struct Cli {
 enum Command {
     /// Ask a running service whether it is ready.
     Health(health::Args),
+    /// Predict how many views an object needs.
+    Predict(predict::Args),
 }
 
 /// What a subcommand returns: an error is printed to stderr and becomes exit code 1.
@@ -29,6 +33,7 @@ pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let result: CliResult = match cli.command {
         Command::Health(args) => health::run(&args),
+        Command::Predict(args) => predict::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,5 +1,7 @@
 //! What can go wrong in a prediction.
 
+use std::path::PathBuf;
+
 use crate::imaging::CameraError;
 
 /// Why there is no prediction.
@@ -14,6 +16,14 @@ pub enum PredictError {
     /// There are no model bytes: none shipped, none given.
     #[error("there is no prediction model: this build ships none, give one with --model FILE (PRV_MODEL)")]
     NoModel,
+    /// The model file given cannot be read.
+    #[error("the prediction model {path} cannot be read: {source}")]
+    ModelFile {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: std::io::Error,
+    },
     /// The model is not one this code can use.
     #[error("the prediction model cannot be used: {field} is {value}, must be {bound}")]
     Model {

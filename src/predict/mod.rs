@@ -23,4 +23,4 @@ pub use error::PredictError;
 pub use model_info::ModelInfo;
 pub use predictor::{MAX_IMAGES, PhotoInput, Prediction, Predictor};
 pub use runtime::DYLIB_VARIABLE;
-pub use shipped::SHIPPED_MODEL;
+pub use shipped::{SHIPPED_MODEL, model_bytes};

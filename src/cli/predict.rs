@@ -1,0 +1,87 @@
+//! `prv predict`: photos on disk to a view count.
+
+use std::path::PathBuf;
+
+use prv::imaging::{DEFAULT_MAX_PIXELS, decode_image};
+use prv::predict::{MAX_IMAGES, PhotoInput, PredictError, Predictor, model_bytes};
+
+use super::CliResult;
+use super::camera_flag::CameraFlag;
+
+/// Predict how many views an object needs, from one to five photos of it.
+///
+/// The object's centre must lie on every photo's optical axis. Transparent pixels of a PNG are background.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Photos, PNG or JPEG; best are one from the top and two from the sides.
+    #[arg(required = true, num_args = 1..=MAX_IMAGES)]
+    images: Vec<PathBuf>,
+    /// The camera's intrinsics: d435, or fx,fy,cx,cy[,k1,k2,p1,p2,k3] in pixels for the photos' own size.
+    #[arg(long, env = "PRV_CAMERA", default_value = "d435", allow_hyphen_values = true)]
+    camera: CameraFlag,
+    /// Distance from the camera to the object's centre, metres.
+    #[arg(long, env = "PRV_DISTANCE", default_value_t = 0.3, allow_hyphen_values = true)]
+    distance: f64,
+    /// Another model than the one in the executable.
+    #[arg(long, env = "PRV_MODEL")]
+    model: Option<PathBuf>,
+    /// Threads for the prediction; 0 for one a core. The answer does not depend on it.
+    #[arg(long, env = "PRV_THREADS", default_value_t = 0)]
+    threads: usize,
+    /// Print JSON.
+    #[arg(long, env = "PRV_JSON")]
+    json: bool,
+}
+
+/// Runs the prediction.
+pub fn run(args: &Args) -> CliResult {
+    let threads = match args.threads {
+        0 => std::thread::available_parallelism().map_or(1, usize::from),
+        threads => threads,
+    };
+    let predictor = Predictor::load(&model_bytes(args.model.as_deref())?, threads, 1)?;
+    let photos = args.images.iter().map(|path| photo(path, args)).collect::<Result<Vec<_>, _>>()?;
+    let prediction = predictor.predict(&photos).map_err(|error| name_photo(error, &args.images))?;
+    let info = predictor.info();
+    if args.json {
+        let answer = serde_json::json!({
+            "raw": prediction.raw,
+            "view_count": prediction.rounded,
+            "label_range": [prediction.label_min, prediction.label_max],
+            "model": {
+                "sha256": info.sha256, "encoder": info.encoder, "trained_on": info.trained_on,
+                "held_out_l1": info.held_out_l1, "best_constant_l1": info.best_constant_l1,
+            },
+        });
+        println!("{answer:#}");
+    } else {
+        println!("{} views ({:.2})", prediction.rounded, prediction.raw);
+        eprintln!(
+            "{} trained on {} objects; on others it was off by {:.1} views on average, the best constant by {:.1}",
+            info.encoder, info.trained_on, info.held_out_l1, info.best_constant_l1
+        );
+    }
+    Ok(())
+}
+
+fn photo(path: &PathBuf, args: &Args) -> Result<PhotoInput, String> {
+    let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let image =
+        decode_image(&bytes, DEFAULT_MAX_PIXELS).map_err(|error| format!("{}: {error}", path.display()))?;
+    let camera = args.camera.for_size(image.width(), image.height());
+    Ok(PhotoInput::looking_at_center(image, camera, args.distance))
+}
+
+/// On the command line a photo is known by its file, not by its number.
+fn name_photo(error: PredictError, images: &[PathBuf]) -> String {
+    let index = match &error {
+        PredictError::ImageSize { index, .. }
+        | PredictError::Camera { index, .. }
+        | PredictError::Center { index, .. } => Some(*index),
+        _ => None,
+    };
+    match index.and_then(|index| images.get(index)) {
+        Some(path) => format!("{}: {error}", path.display()),
+        None => error.to_string(),
+    }
+}
