@@ -16,6 +16,7 @@ mod link;
 mod model;
 mod numeric;
 mod panda;
+mod postures;
 mod ur;
 mod wraps;
 
@@ -29,5 +30,5 @@ pub use limits::{ClampedJoint, START_TOLERANCE_RAD, clamp_start, limit_violation
 pub use link::{Link, LinkShape};
 pub use model::RobotModel;
 pub use numeric::NumericKinematics;
-pub use ur::UrParameters;
+pub use ur::{Branch, Branches, UrKinematics, UrParameters};
 pub use wraps::{all_wraps, nearest_wrap};

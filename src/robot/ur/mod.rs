@@ -1,9 +1,16 @@
 //! Arms of Universal Robots.
 
+mod inverse;
+mod kinematics;
 mod links;
 mod model;
 mod parameters;
 
+pub use inverse::{Branch, Branches};
+pub use kinematics::UrKinematics;
 pub(super) use model::model;
 pub(super) use parameters::NAMES;
 pub use parameters::UrParameters;
+
+#[cfg(test)]
+mod tests;

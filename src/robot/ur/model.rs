@@ -3,11 +3,10 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
+use super::UrKinematics;
 use super::links::{girth, links};
 use super::parameters::{JOINT_NAMES, SHEETS, Sheet};
-use crate::geometry::Pose;
-use crate::robot::dh::chain_from_dh;
-use crate::robot::{DhConvention, Joint, NumericKinematics, RobotError, RobotModel};
+use crate::robot::{Joint, RobotError, RobotModel};
 
 /// Index of the elbow among the joints.
 const ELBOW: usize = 2;
@@ -19,10 +18,9 @@ pub fn model(name: &str) -> Option<Result<RobotModel, RobotError>> {
 
 fn build(sheet: &Sheet) -> Result<RobotModel, RobotError> {
     let joints = joints(&sheet.max_speed_deg_per_s);
-    let chain = chain_from_dh(&sheet.parameters.dh_rows(), DhConvention::Standard, &Pose::identity())?;
     Ok(RobotModel {
         name: sheet.name.to_owned(),
-        kinematics: Arc::new(NumericKinematics::new(chain, joints.clone())?),
+        kinematics: Arc::new(UrKinematics::new(sheet.parameters, joints.clone())?),
         joints,
         links: links(&sheet.parameters, &girth(sheet.name)),
         base_frame: "base".to_owned(),
@@ -68,7 +66,7 @@ fn sources() -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Point, Vector};
+    use crate::geometry::{Point, Pose, Vector};
     use crate::robot::LinkShape;
     use std::f64::consts::FRAC_PI_2;
 
