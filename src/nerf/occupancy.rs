@@ -1,0 +1,76 @@
+//! Which cells hold anything: learnt from the density field itself.
+
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+
+use super::distance_map::{CELLS, DistanceMap};
+use super::field::{DensityBlock, Field, density};
+use super::ray::STEP;
+use super::simd::{InstructionSet, LANES};
+
+/// What a cell keeps of its opacity from one update to the next.
+const DECAY: f32 = 0.9;
+/// Opacity of one step from which a cell counts as occupied; samples below it
+/// would have too little weight to be kept.
+const OCCUPIED: f32 = 4e-3;
+/// After the first updates one cell in so many is probed, besides every second occupied one.
+const STRIDE: usize = 8;
+
+/// Largest recent opacity of each cell, and the map that marching reads.
+pub(super) struct Occupancy {
+    opacity: Vec<f32>,
+    pub map: DistanceMap,
+    updates: usize,
+    blocks: Vec<DensityBlock>,
+}
+
+impl Occupancy {
+    /// Every cell occupied.
+    pub fn full() -> Occupancy {
+        let cells = CELLS * CELLS * CELLS;
+        Occupancy {
+            opacity: vec![1.0; cells],
+            map: DistanceMap::new(&vec![true; cells]),
+            updates: 0,
+            blocks: vec![DensityBlock::EMPTY; 64],
+        }
+    }
+
+    /// Probes the field at a random point of some cells (of all cells if `all`).
+    pub fn update(&mut self, set: InstructionSet, field: &Field, rng: &mut ChaCha8Rng, all: bool) {
+        let phase = self.updates;
+        self.updates += 1;
+        let probed: Vec<u32> = (0..self.opacity.len())
+            .filter(|&cell| {
+                all || cell % STRIDE == phase % STRIDE
+                    || (cell % 2 == phase % 2 && self.opacity[cell] > OCCUPIED)
+            })
+            .map(|cell| cell as u32)
+            .collect();
+        // What `full` set is no observation: the first probe replaces it.
+        let decay = if phase == 0 { 0.0 } else { DECAY };
+        self.opacity.iter_mut().for_each(|o| *o *= decay);
+        for cells in probed.chunks(self.blocks.len() * LANES) {
+            let used = cells.len().div_ceil(LANES);
+            let blocks = &mut self.blocks[..used];
+            for (cells, block) in cells.chunks(LANES).zip(blocks.iter_mut()) {
+                for (i, &cell) in cells.iter().enumerate() {
+                    let cell = cell as usize;
+                    let corner = [cell % CELLS, cell / CELLS % CELLS, cell / (CELLS * CELLS)];
+                    for (axis, corner) in block.position.iter_mut().zip(corner) {
+                        axis.0[i] = (corner as f32 + rng.random::<f32>()) * DistanceMap::CELL;
+                    }
+                }
+            }
+            density(set, field, STEP, blocks);
+            for (cells, block) in cells.chunks(LANES).zip(blocks.iter()) {
+                for (&cell, &alpha) in cells.iter().zip(&block.alpha.0) {
+                    let opacity = &mut self.opacity[cell as usize];
+                    *opacity = opacity.max(alpha);
+                }
+            }
+        }
+        let occupied: Vec<bool> = self.opacity.iter().map(|&o| o > OCCUPIED).collect();
+        self.map = DistanceMap::new(&occupied);
+    }
+}

@@ -1,0 +1,2 @@
+mod scene;
+mod training;
