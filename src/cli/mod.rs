@@ -1,7 +1,7 @@
 //! The command line: one file a subcommand, each with its arguments and its `run`.
 
-mod camera_flag;
 mod health;
+mod camera_flag;
 mod predict;
 
 use std::process::ExitCode;

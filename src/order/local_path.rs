@@ -200,3 +200,84 @@ fn extend_straight(points: &mut Vec<Point>, from: Point, to: Point, step_m: f64)
     let steps = steps((to - from).norm(), step_m);
     points.extend((1..=steps).map(|k| from + (to - from) * (k as f64 / steps as f64)));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::direction_from_azimuth_elevation;
+    use proptest::prelude::*;
+
+    /// A point `gap` outside the ball of the tests, above the table.
+    fn outside() -> impl Strategy<Value = Point> {
+        (-3.1..3.1f64, -1.5..1.5f64, 1e-3..0.5f64).prop_map(|(azimuth, elevation, gap)| {
+            let direction = direction_from_azimuth_elevation(azimuth, elevation);
+            CENTER + direction.into_inner() * (RADIUS_M + gap)
+        })
+    }
+
+    const CENTER: Point = Point::new(0.4, -0.1, 0.05);
+    const RADIUS_M: f64 = 0.2;
+
+    fn clear_of(obstacle: &Obstacle, points: &[Point], step_m: f64) -> bool {
+        let sag = step_m * step_m / RADIUS_M;
+        points.iter().all(|p| (p - CENTER).norm() >= RADIUS_M - 1e-9)
+            && points.iter().all(|p| obstacle.table_z_m.is_none_or(|z| p.z >= z - 1e-9))
+            && points.windows(2).all(|w| {
+                let middle = nalgebra::center(&w[0], &w[1]);
+                (middle - CENTER).norm() >= RADIUS_M - sag && (w[1] - w[0]).norm() <= step_m + 1e-9
+            })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(500))]
+
+        #[test]
+        fn without_a_table_the_curve_is_the_geodesic(a in outside(), b in outside()) {
+            let obstacle = Obstacle { center: CENTER, radius_m: RADIUS_M, table_z_m: None };
+            let path = LocalPath::between(a, b, &obstacle);
+            prop_assert!(clear_of(&obstacle, &path.sample(0.01), 0.01));
+            // Tangent lengths and the angle left between the tangents' ends.
+            let (u, v) = (a - CENTER, b - CENTER);
+            let reach = |w: &Vector| (RADIUS_M / w.norm()).min(1.0).acos();
+            let arc = u.angle(&v) - reach(&u) - reach(&v);
+            let expected = if arc > 0.0 {
+                RADIUS_M * arc + (u.norm_squared() - RADIUS_M * RADIUS_M).sqrt()
+                    + (v.norm_squared() - RADIUS_M * RADIUS_M).sqrt()
+            } else {
+                (a - b).norm()
+            };
+            prop_assert!((path.length_m() - expected).abs() < 1e-7, "{} {expected}", path.length_m());
+        }
+
+        #[test]
+        fn above_a_table_the_curve_clears_ball_and_table(a in outside(), b in outside(), table in -0.3..0.3f64) {
+            let table = table.min(a.z).min(b.z);
+            let obstacle = Obstacle { center: CENTER, radius_m: RADIUS_M, table_z_m: Some(table) };
+            let path = LocalPath::between(a, b, &obstacle);
+            let points = path.sample(0.01);
+            prop_assert!(clear_of(&obstacle, &points, 0.01));
+            prop_assert_eq!(points[0], a);
+            prop_assert!((points[points.len() - 1] - b).norm() < 1e-12);
+            let sampled: f64 = points.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+            prop_assert!(sampled <= path.length_m() + 1e-9 && sampled > 0.99 * path.length_m());
+            let free = LocalPath::between(a, b, &Obstacle { table_z_m: None, ..obstacle });
+            prop_assert!(path.length_m() >= free.length_m() - 1e-9);
+        }
+
+        #[test]
+        fn the_way_back_is_as_long(a in outside(), b in outside()) {
+            let table = (-0.05f64).min(a.z).min(b.z);
+            let obstacle = Obstacle { center: CENTER, radius_m: RADIUS_M, table_z_m: Some(table) };
+            let there = LocalPath::between(a, b, &obstacle).length_m();
+            prop_assert!((there - LocalPath::between(b, a, &obstacle).length_m()).abs() < 1e-7);
+        }
+    }
+
+    #[test]
+    fn opposite_points_go_over_the_top() {
+        let (a, b) = (CENTER + Vector::x() * 0.3, CENTER - Vector::x() * 0.3);
+        let obstacle = Obstacle { center: CENTER, radius_m: RADIUS_M, table_z_m: Some(0.0) };
+        let points = LocalPath::between(a, b, &obstacle).sample(0.005);
+        assert!(points.iter().any(|p| p.z > CENTER.z + RADIUS_M - 1e-3));
+    }
+}

@@ -81,7 +81,83 @@ proptest! {
         let matrix = CostMatrix::from_points(&points, &BALL).unwrap();
         let path = shortest_path(&matrix, start, BUDGET).unwrap();
         let optimum = by_subsets(&matrix, start);
-        prop_assert!(path.length <= 1.05 * optimum);
+        prop_assert!(path.optimal && (path.length - optimum).abs() <= 1e-9 * optimum);
         prop_assert!(path.lower_bound <= optimum * (1.0 + 1e-12));
     }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(30))]
+
+    #[test]
+    fn directed_costs_get_a_path_between_bound_and_optimum(
+        costs in prop::collection::vec(0.0..1.0f64, 64), start in 0usize..8,
+    ) {
+        let matrix = CostMatrix::from_rows(8, costs).unwrap();
+        let path = shortest_path(&matrix, start, BUDGET).unwrap();
+        let optimum = by_subsets(&matrix, start);
+        prop_assert!(path.lower_bound <= optimum + 1e-12 && optimum <= path.length + 1e-12);
+        prop_assert!(!path.optimal || path.length <= optimum * (1.0 + 1e-9));
+    }
+
+    #[test]
+    fn equal_costs_everywhere_are_no_trouble(n in 3usize..40) {
+        // Every order is optimal: the most ties there can be.
+        let path = shortest_path(&CostMatrix::from_rows(n, vec![1.0; n * n]).unwrap(), n / 2, BUDGET).unwrap();
+        prop_assert!(path.optimal && path.length == (n - 1) as f64);
+    }
+}
+
+#[test]
+fn a_tammes_set_is_ordered_to_the_proven_optimum() {
+    let space = crate::views::ViewSpace {
+        center_in_base: Point::new(0.5, 0.0, 0.1),
+        radius_m: 0.3,
+        band: crate::views::Band::DEFAULT,
+    };
+    let ball = Obstacle { center: space.center_in_base, radius_m: 0.10625, table_z_m: Some(0.0) };
+    for n in [17, 35, 58] {
+        let set = crate::views::tammes(n, space.band).unwrap();
+        let points: Vec<Point> = set.directions.iter().map(|d| space.position(d)).collect();
+        let path = order_points(&points, 0, &ball, BUDGET).unwrap();
+        let mut sorted = path.order.clone();
+        sorted.sort_unstable();
+        assert_eq!(sorted, (0..n).collect::<Vec<_>>());
+        assert!(path.optimal, "{n}: {} {}", path.length, path.lower_bound);
+        assert_eq!(path, order_points(&points, 0, &ball, BUDGET).unwrap());
+    }
+}
+
+#[test]
+fn a_budget_of_nothing_still_gives_a_path_and_a_valid_bound() {
+    let points: Vec<Point> =
+        (0..30).map(|k| Point::new((k * 7 % 11) as f64, (k * 5 % 13) as f64, (k % 3) as f64)).collect();
+    let hurried = order_points(&points, 4, &Obstacle::none(), Duration::ZERO).unwrap();
+    let patient = order_points(&points, 4, &Obstacle::none(), BUDGET).unwrap();
+    assert!(patient.optimal);
+    assert!(hurried.lower_bound <= patient.length && patient.length <= hurried.length);
+}
+
+#[test]
+fn bad_problems_are_refused_with_their_numbers() {
+    let a = Point::new(0.0, 0.0, 1.0);
+    let order = |points: &[Point], start| order_points(points, start, &BALL, BUDGET);
+    assert_eq!(order(&[], 0), Err(OrderError::Empty));
+    assert_eq!(order(&[a], 1), Err(OrderError::Start { start: 1, count: 1 }));
+    assert!(matches!(
+        order(&[a, Point::new(f64::NAN, 0.0, 1.0)], 0),
+        Err(OrderError::Coordinate { field, .. }) if field == "points[1].x"
+    ));
+    assert!(matches!(
+        order(&[a, Point::new(0.0, 0.05, 0.0)], 0),
+        Err(OrderError::InsideObstacle { index: 1, depth_m }) if (depth_m - 0.07).abs() < 1e-12
+    ));
+    assert!(matches!(
+        order(&[a, Point::new(0.0, 0.5, -0.2)], 0),
+        Err(OrderError::BelowTable { index: 1, depth_m }) if (depth_m - 0.2).abs() < 1e-12
+    ));
+    assert!(matches!(
+        CostMatrix::from_rows(2, vec![0.0, -1.0, 1.0, 0.0]),
+        Err(OrderError::Cost { from: 0, to: 1, .. })
+    ));
 }

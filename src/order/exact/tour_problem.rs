@@ -3,7 +3,7 @@
 //! A node `home` is added that costs nothing to reach from anywhere. A closed tour that uses the
 //! edge from `home` to the start, without `home`, is a path from the start with a free end.
 
-use super::CostMatrix;
+use crate::order::CostMatrix;
 
 /// A symmetric closed-tour problem whose last node is `home`; the edge from `home` to `start`
 /// belongs to every tour.
@@ -56,5 +56,16 @@ impl TourProblem {
             _ => 0.0,
         };
         tour.windows(2).map(|pair| self.cost(pair[0], pair[1])).sum::<f64>() + closing
+    }
+
+    /// The same tour, as the path from the start to its free end and `home` last.
+    pub(super) fn from_home(&self, mut tour: Vec<usize>) -> Vec<usize> {
+        if let Some(at) = tour.iter().position(|&k| k == self.start) {
+            tour.rotate_left(at);
+        }
+        if tour.get(1) == Some(&self.home()) {
+            tour[1..].reverse();
+        }
+        tour
     }
 }

@@ -57,11 +57,19 @@ struct Tree {
     nearest: Vec<f64>,
     parent: Vec<u32>,
     outside: Vec<u32>,
+    /// Points in the order they joined the tree, without the first.
+    joined: Vec<u32>,
 }
 
 impl Tree {
     fn new(n: usize) -> Tree {
-        Tree { degree: vec![0; n], nearest: vec![0.0; n], parent: vec![0; n], outside: Vec::with_capacity(n) }
+        Tree {
+            degree: vec![0; n],
+            nearest: vec![0.0; n],
+            parent: vec![0; n],
+            outside: Vec::with_capacity(n),
+            joined: Vec::with_capacity(n),
+        }
     }
 
     /// Prim's algorithm on the points, then the two edges at `home`: the one to the start and the
@@ -70,6 +78,7 @@ impl Tree {
         let home = problem.home();
         self.degree.fill(0);
         self.outside.clear();
+        self.joined.clear();
         let root = problem.start;
         let mut total = 0.0;
         for k in (0..home).filter(|&k| k != root) {
@@ -86,6 +95,7 @@ impl Tree {
             }
             let node = self.outside.swap_remove(at) as usize;
             total += self.nearest[node];
+            self.joined.push(node as u32);
             self.degree[node] += 1;
             self.degree[self.parent[node] as usize] += 1;
             let row = problem.row(node);
@@ -109,4 +119,50 @@ impl Tree {
         }
         total - 2.0 * prices.iter().sum::<f64>()
     }
+}
+
+/// An edge that a tour cheaper than some cutoff may use.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Edge {
+    pub a: usize,
+    pub b: usize,
+    pub cost: f64,
+    /// What a 1-tree costs more if it must hold this edge.
+    pub excess: f64,
+}
+
+/// All edges that some tour cheaper than `cutoff` may hold: forcing any other into the 1-tree of
+/// these prices raises its cost to the cutoff at least.
+pub(super) fn useful_edges(problem: &TourProblem, prices: &[f64], cutoff: f64) -> Vec<Edge> {
+    let mut tree = Tree::new(problem.nodes);
+    let bound = tree.build(problem, prices);
+    let (home, start) = (problem.home(), problem.start);
+    // The dearest edge on the tree's path between any two points; nodes in the order they joined.
+    let n = home;
+    let mut dearest = vec![f64::NEG_INFINITY; n * n];
+    for (joined, &node) in tree.joined.iter().enumerate() {
+        let (node, parent) = (node as usize, tree.parent[node as usize] as usize);
+        let edge = tree.nearest[node];
+        for &other in std::iter::once(&(start as u32)).chain(&tree.joined[..joined]) {
+            let other = other as usize;
+            let worst = if other == parent { edge } else { edge.max(dearest[parent * n + other]) };
+            dearest[node * n + other] = worst;
+            dearest[other * n + node] = worst;
+        }
+    }
+    let mut edges = vec![Edge { a: start, b: home, cost: 0.0, excess: 0.0 }];
+    let cheapest_end = (0..n).filter(|&k| k != start).map(|k| prices[k]).fold(f64::INFINITY, f64::min);
+    for a in 0..n {
+        for b in a + 1..n {
+            let excess = problem.cost(a, b) + prices[a] + prices[b] - dearest[a * n + b];
+            if bound + excess <= cutoff {
+                edges.push(Edge { a, b, cost: problem.cost(a, b), excess: excess.max(0.0) });
+            }
+        }
+        let excess = prices[a] - cheapest_end;
+        if a != start && bound + excess <= cutoff {
+            edges.push(Edge { a, b: home, cost: 0.0, excess });
+        }
+    }
+    edges
 }
