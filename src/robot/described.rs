@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::dh::chain_from_dh;
-use super::{Chain, DhConvention, DhRow, Joint, Link, LinkShape, NumericKinematics, RobotError, RobotModel};
+use super::{
+    Chain, DhConvention, DhRow, Joint, Kinematics, Link, LinkShape, NumericKinematics, RobotError, RobotModel,
+};
 use crate::geometry::Pose;
 
 /// Radius of the capsules that stand for links of unknown shape, metres.
@@ -40,7 +42,7 @@ pub(super) fn from_dh(rows: &[DhRow], convention: DhConvention) -> Result<RobotM
     Ok(RobotModel {
         name: "dh".to_owned(),
         links: links_along(&chain, DEFAULT_RADIUS_M),
-        kinematics: Arc::new(NumericKinematics::new(chain, joints.clone())?),
+        kinematics: kinematics_of(chain, &joints)?,
         joints,
         base_frame: "base".to_owned(),
         flange_frame: "flange".to_owned(),
@@ -53,6 +55,11 @@ pub(super) fn from_dh(rows: &[DhRow], convention: DhConvention) -> Result<RobotM
         ],
         warnings,
     })
+}
+
+/// The kinematics of a described chain.
+pub(super) fn kinematics_of(chain: Chain, joints: &[Joint]) -> Result<Arc<dyn Kinematics>, RobotError> {
+    Ok(Arc::new(NumericKinematics::new(chain, joints.to_vec())?))
 }
 
 fn joint_from_row(index: usize, row: &DhRow, warnings: &mut Vec<String>) -> Result<Joint, RobotError> {

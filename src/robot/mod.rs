@@ -18,6 +18,7 @@ mod numeric;
 mod panda;
 mod postures;
 mod ur;
+mod urdf;
 mod wraps;
 
 pub use chain::{Chain, MAX_JOINTS, Segment};

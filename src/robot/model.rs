@@ -63,6 +63,23 @@ impl RobotModel {
         super::described::from_dh(rows, convention)
     }
 
+    /// An arm of six or seven turning joints out of URDF text.
+    ///
+    /// `base_link` is the root and `tip_link` a link of a customary name
+    /// (`tool0`, `flange`, ..) or the only leaf that fits, unless they are
+    /// named. Fixed joints are folded; any other joint between base and tip is
+    /// refused. Speed limits are the URDF's, accelerations assumed. Collision
+    /// boxes, cylinders, capsules and spheres are kept, meshes left out; what
+    /// was left out or assumed is in `warnings`. Text over 1 MiB, more than
+    /// 512 links or 256 shapes are refused; errors name the joint or link.
+    pub fn from_urdf(
+        text: &str,
+        base_link: Option<&str>,
+        tip_link: Option<&str>,
+    ) -> Result<Self, RobotError> {
+        super::urdf::from_urdf(text, base_link, tip_link)
+    }
+
     /// A joint state within the limits; see [`super::clamp_start`].
     pub fn clamp_start(&self, start_rad: &[f64]) -> Result<(Vec<f64>, Vec<super::ClampedJoint>), RobotError> {
         super::clamp_start(&self.joints, start_rad)
