@@ -1,0 +1,16 @@
+"""PRVNet: from one to five photos of an object to the number of views its reconstruction needs."""
+
+# Version of the model file's input, output and metadata; the service reads exactly this one.
+FORMAT = "1"
+
+# Half the side of the square window, metres, that `prv inputs` and the service cut out of a photo.
+CROP_HALF_SIZE_M = 0.135
+
+# The most photos of one object.
+MAX_IMAGES = 5
+
+# The service's initial photos (top, left, front): the first of the five that `prv inputs` writes.
+INITIAL_IMAGES = 3
+
+# View counts the paper's network can answer.
+PAPER_RANGE = (13, 58)

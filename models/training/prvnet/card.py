@@ -1,0 +1,109 @@
+"""Measures the model file on the held-out objects and writes the figures into the model card.
+
+    python -m prvnet.card --run runs/x --model models/prvnet.onnx --card models/MODEL_CARD.md
+
+The figures stand between two marks in the card; what is around them is written by hand.
+"""
+
+import argparse
+import csv
+import json
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+from . import INITIAL_IMAGES, MAX_IMAGES, baseline, crossval, labels, metrics
+from .onnx_model import OnnxModel
+from .sources import Photos, all_subsets
+
+BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
+SHOOTS = 8
+
+
+def status_line(path: Path) -> str:
+    with open(path, newline="") as file:
+        counts = Counter(line["status"] for line in csv.DictReader(file))
+    return ", ".join(f"{count} `{status}`" for status, count in counts.most_common())
+
+
+def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path, crossval_csv: Path | None) -> str:
+    rows = labels.read(labels_path, inputs, config["statuses"].split(","))
+    by_id = {row.id: row for row in rows}
+    train, validation, test = ([by_id[id] for id in config["rows"][part]] for part in ("train", "validation", "test"))
+    truth, groups = np.array([row.views for row in test]), [row.group for row in test]
+    photos = Photos(inputs, test, int(model.metadata["prv.input_size"]))
+    clean = [photos.get(row, 0).numpy() for row in test]
+
+    def error(predicted) -> str:
+        return metrics.with_interval(np.abs(np.asarray(predicted) - truth), groups)
+
+    initial = np.array([model.predict(images[:INITIAL_IMAGES]) for images in clean])
+    shoots = np.array(
+        [[model.predict(photos.get(row, 1 + v)[:INITIAL_IMAGES].numpy()) for v in range(SHOOTS)] for row in test]
+    )
+    known = np.array([row.views for row in train + validation])
+    all_views = np.array([row.views for row in rows])
+    quantiles = np.quantile(all_views, [0, 0.1, 0.25, 0.5, 0.75, 0.9, 1])
+    lines = [
+        f"Labels: {status_line(labels_path)}; used are {len(rows)} rows of {len({r.group for r in rows})} objects: "
+        f"{len(train)} to train, {len(validation)} to choose by, {len(test)} held out.",
+        "",
+        "v* (min, 10 %, 25 %, median, 75 %, 90 %, max): " + ", ".join(f"{q:.0f}" for q in quantiles) + ". "
+        f"Mean standard deviation of a label: {np.mean([row.sigma for row in rows]):.1f} views.",
+        "",
+        "| held-out objects, three initial photos | L1, views [95 % interval] |",
+        "|---|---|",
+        f"| **PRVNet** ({config['encoder']}, ONNX) | **{error(initial)}** |",
+        f"| best constant on the held-out objects themselves ({np.median(truth):.0f}) | {error(np.median(truth))} |",
+        f"| median of the training labels ({np.median(known):.0f}) | {error(np.median(known))} |",
+        f"| regression on image statistics | {error(baseline.evaluate(inputs, rows, config['turn']))} |",
+        f"| PRVNet, random backgrounds, light and camera ({SHOOTS} shoots) | "
+        f"{metrics.with_interval(np.abs(shoots - truth[:, None]).mean(1), groups)} |",
+        "",
+        f"Between a clean render and a random shoot of the same object the answer moves by "
+        f"{np.abs(shoots - initial[:, None]).mean():.1f} views on average.",
+        "",
+        "| photos | L1, mean over every choice of that many of the five |",
+        "|---|---|",
+    ]
+    for count in range(1, MAX_IMAGES + 1):
+        answers = np.array([[model.predict(images[choice]) for choice in all_subsets(count)] for images in clean])
+        lines.append(f"| {count} | {metrics.with_interval(np.abs(answers - truth[:, None]).mean(1), groups)} |")
+    if crossval_csv is not None:
+        cv = crossval.read(crossval_csv)
+        lines += ["", f"| five runs, each of {len(cv)} rows held out once | L1, views [95 % interval] |", "|---|---|"]
+        lines += [f"| {name} | {figure} |" for name, figure in crossval.summary(cv)]
+    return "\n".join(lines)
+
+
+def update(card: Path, text: str):
+    """Puts `text` between the marks; a card without marks gets them at its end."""
+    old = card.read_text() if card.is_file() else "# Model card of PRVNet\n"
+    if BEGIN not in old:
+        old = f"{old.rstrip()}\n\n{BEGIN}\n{END}\n"
+    head, rest = old.split(BEGIN, 1)
+    tail = rest.split(END, 1)[1]
+    card.write_text(f"{head}{BEGIN}\n{text}\n{END}{tail}")
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--run", type=Path, required=True)
+    parser.add_argument("--model", type=Path, required=True)
+    parser.add_argument("--labels", type=Path, help="default: what the run was trained on")
+    parser.add_argument("--inputs", type=Path, help="default: what the run was trained on")
+    parser.add_argument("--crossval", type=Path, help="crossval.csv of prvnet.crossval")
+    parser.add_argument("--card", type=Path, help="the file to update; without it the figures are only printed")
+    args = parser.parse_args(argv)
+    config = json.loads((args.run / "config.json").read_text())
+    where = json.loads((args.run / "where.json").read_text())
+    labels_path, inputs = args.labels or Path(where["labels"]), args.inputs or Path(where["inputs"])
+    text = figures(OnnxModel(args.model), config, labels_path, inputs, args.crossval)
+    print(text)
+    if args.card:
+        update(args.card, text)
+
+
+if __name__ == "__main__":
+    main()

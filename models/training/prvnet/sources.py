@@ -1,0 +1,85 @@
+"""Where a training step's batch comes from: photos made anew, or features of a frozen encoder made once."""
+
+import hashlib
+import json
+from pathlib import Path
+
+import numpy as np
+import torch
+from PIL import Image
+from tqdm import tqdm
+
+from . import MAX_IMAGES, augment, labels
+
+
+def resized(crops: np.ndarray, size: int) -> np.ndarray:
+    """Crops [n, S, S, 4] at another size, if they are not written at it already."""
+    if crops.shape[1] == size:
+        return crops
+    images = [Image.fromarray(crop).convert("RGBa").resize((size, size), Image.Resampling.BOX) for crop in crops]
+    return np.stack([np.asarray(image.convert("RGBA")) for image in images])
+
+
+def planes(images: np.ndarray) -> torch.Tensor:
+    """[n, S, S, 3] to [n, 3, S, S]."""
+    return torch.from_numpy(np.ascontiguousarray(images.transpose(0, 3, 1, 2)))
+
+
+def shoot_seed(row, variant: int) -> list[int]:
+    return [variant, int.from_bytes(hashlib.sha256(row.id.encode()).digest()[:8], "big")]
+
+
+class Photos:
+    """Variant 0 of a row is its crops on white, every other number a random shoot of them."""
+
+    def __init__(self, inputs: Path, rows, size: int):
+        self.size = size
+        self.crops = {row.id: resized(labels.crops(inputs, row), size) for row in tqdm(rows, "crops", leave=False)}
+
+    def get(self, row, variant: int) -> torch.Tensor:
+        """[5, 3, S, S] in 0..1."""
+        crops = self.crops[row.id]
+        if variant == 0:
+            return planes(np.stack([augment.on_white(crop) for crop in crops]))
+        return planes(augment.shoot(crops, np.random.default_rng(shoot_seed(row, variant))))
+
+    def batch(self, items) -> torch.Tensor:
+        """(row, variant, images) triples to [B, n, 3, S, S]."""
+        return torch.stack([self.get(row, variant)[images] for row, variant, images in items])
+
+
+class Bank:
+    """Features of a frozen encoder for `variants` shoots of each row, kept on disk row by row."""
+
+    def __init__(self, directory: Path, inputs: Path, rows, network, variants: int, device):
+        self.variants = variants
+        config = network.config
+        name = json.dumps([config["encoder"], config["levels"], config["size"], variants])
+        # Another augmentation or encoder code makes other features.
+        code = b"".join(Path(__file__).with_name(f"{m}.py").read_bytes() for m in ("augment", "encoders"))
+        folder = directory / hashlib.sha256(name.encode() + code).hexdigest()[:12]
+        folder.mkdir(parents=True, exist_ok=True)
+        self.features = {}
+        network.encoder.eval()
+        for row in tqdm(rows, "features"):
+            path = folder / f"{row.id}.npy"
+            if not path.is_file():
+                photos = Photos(inputs, [row], config["size"])
+                with torch.no_grad():
+                    table = [network.encode(photos.batch([(row, v, slice(None))]).to(device))[0] for v in range(variants)]
+                partial = path.with_suffix(".part")
+                with open(partial, "wb") as file:
+                    np.save(file, torch.stack(table).cpu().numpy().astype(np.float32))
+                partial.rename(path)
+            self.features[row.id] = torch.from_numpy(np.load(path))
+
+    def batch(self, items) -> torch.Tensor:
+        """(row, variant, images) triples to [B, n, D]."""
+        return torch.stack([self.features[row.id][variant % self.variants][images] for row, variant, images in items])
+
+
+def all_subsets(count: int) -> list[list[int]]:
+    """Every choice of `count` of the five photos."""
+    from itertools import combinations
+
+    return [list(choice) for choice in combinations(range(MAX_IMAGES), count)]

@@ -1,0 +1,224 @@
+"""Trains PRVNet; may be stopped and started again with the same command.
+
+    python -m prvnet.train --labels models/labels.csv --inputs DIR --encoder efficientnet_lite0 --out runs/x
+
+The folder gets config.json, where.json, log.csv, last.pt (to resume) and best.pt (least validation L1).
+"""
+
+import argparse
+import csv
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import torch
+from tqdm import tqdm
+
+from . import INITIAL_IMAGES, MAX_IMAGES, PAPER_RANGE, encoders, labels, metrics
+from .model import HEADS, PRVNet
+from .sources import Bank, Photos
+from .splits import split
+
+VALIDATION_VARIANTS = 6
+
+
+def arguments(argv=None):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    add = parser.add_argument
+    add("--labels", type=Path, required=True, help="labels.csv of `prv label`")
+    add("--inputs", type=Path, required=True, help="folder of `prv inputs`")
+    add("--out", type=Path, required=True, help="folder of this run")
+    add("--encoder", choices=encoders.NAMES, default="efficientnet_lite0")
+    add("--levels", choices=("last", "all"), default="all", help="pool the encoder's output or every stage's")
+    add("--head", choices=tuple(HEADS), default="small")
+    add("--heads", type=int, default=5, help="heads trained side by side and averaged")
+    add("--size", type=int, default=224, help="side of the input images, pixels")
+    add("--images", choices=("1-5", "3"), default="1-5", help="initial images of a training sample")
+    add("--range", choices=("labels", "paper"), default="labels", help="the sigmoid's range")
+    add("--statuses", default="ok", help="label statuses to train on, by commas")
+    add("--freeze", action=argparse.BooleanOptionalAction, default=None,
+        help="leave the encoder as it is (default for encoders with ImageNet weights)")  # fmt: skip
+    add("--variants", type=int, default=16, help="random shoots of each object with a frozen encoder")
+    add("--bank", type=Path, help="folder for the frozen encoder's features (default: beside the inputs)")
+    add("--epochs", type=int, help="passes over the objects (default 150 frozen, 60 otherwise)")
+    add("--batch", type=int, default=64)
+    add("--lr", type=float, help="learning rate of the heads at the given batch (default 5e-4 frozen, else 10 x encoder)")
+    add("--encoder-lr", type=float, default=1.5e-4, help="of the encoder, times batch / 256")
+    add("--weight-decay", type=float, default=0.05)
+    add("--weight-by-sigma", action="store_true", help="count uncertain labels less")
+    add("--turn", type=int, default=0, help="which folds are held out (0 to 4)")
+    add("--seed", type=int, default=0)
+    add("--threads", type=int, default=2)
+    add("--device", default="cuda" if torch.cuda.is_available() else "cpu")
+    args = parser.parse_args(argv)
+    if args.freeze is None:
+        args.freeze = args.encoder in encoders.EFFICIENTNET_LITE
+    args.epochs = args.epochs or (150 if args.freeze else 60)
+    args.bank = args.bank or args.inputs / ".features"
+    if args.lr is None:
+        args.lr = 5e-4 if args.freeze else 10 * args.encoder_lr * args.batch / 256
+    return args
+
+
+def configuration(args, train, validation, test) -> dict:
+    """Everything that fixes the run's result."""
+    views = [row.views for row in train]
+    low, high = PAPER_RANGE if args.range == "paper" else (int(min(views)), int(max(views)))
+    chosen = ("encoder", "levels", "head", "heads", "size", "images", "freeze", "variants", "epochs", "batch")
+    rates = ("lr", "encoder_lr", "weight_decay", "weight_by_sigma", "turn", "seed", "statuses")
+    return {
+        **{key: getattr(args, key) for key in chosen + rates},
+        "range": [low, max(high, low + 1)],
+        "trained_on": len(train),
+        "rows": {"train": ids(train), "validation": ids(validation), "test": ids(test)},
+    }
+
+
+def ids(rows):
+    return [row.id for row in rows]
+
+
+def images_of(rng, mode) -> list[int]:
+    if mode == "3":
+        return list(range(INITIAL_IMAGES))
+    return sorted(rng.permutation(MAX_IMAGES)[: rng.integers(1, MAX_IMAGES + 1)].tolist())
+
+
+def evaluate(network, source, rows, device, variants=range(VALIDATION_VARIANTS)) -> float:
+    """L1 of the mean of the heads on the three initial images, over variants (0 is the clean one)."""
+    network.eval()
+    errors, first = [], list(range(INITIAL_IMAGES))
+    with torch.no_grad():
+        for variant in variants:
+            for start in range(0, len(rows), 64):
+                part = rows[start : start + 64]
+                answer = network(source.batch([(row, variant, first) for row in part]).to(device)).mean(1).cpu()
+                errors.extend(np.abs(answer.numpy() - [row.views for row in part]))
+    return float(np.mean(errors))
+
+
+def epoch_of(network, source, rows, args, epoch, optimizer, scheduler, device) -> float:
+    """One pass; all randomness comes from the seed and the epoch, so that a resumed run is the same run."""
+    rng = np.random.default_rng([args.seed, epoch])
+    torch.manual_seed(args.seed * 100003 + epoch)
+    network.train()
+    if args.freeze:
+        network.encoder.eval()
+    low, high = network.low, network.high
+    order, total = rng.permutation(len(rows)), 0.0
+    # A last batch of one row would break batch normalisation: it joins the one before.
+    starts = [s for s in range(0, len(order), args.batch) if len(order) - s > 1 or s == 0]
+    for index, start in enumerate(starts):
+        end = len(order) if index + 1 == len(starts) else start + args.batch
+        part = [rows[i] for i in order[start:end]]
+        count = len(images_of(rng, args.images))
+        items = []
+        for row in part:
+            chosen = list(range(INITIAL_IMAGES))
+            if args.images != "3":
+                chosen = rng.permutation(MAX_IMAGES)[:count].tolist()
+            items.append((row, int(rng.integers(0, args.variants if args.freeze else 2**31)), chosen))
+        target = torch.tensor([row.views for row in part], dtype=torch.float32, device=device)
+        weight = torch.ones_like(target)
+        if args.weight_by_sigma:
+            weight = 1 / (3 + torch.tensor([row.sigma for row in part], dtype=torch.float32, device=device))
+        answers = network(source.batch(items).to(device))
+        errors = (answers - target.clamp(low, high).unsqueeze(1)).abs().mean(1)
+        loss = (errors * weight).sum() / weight.sum()
+        optimizer.zero_grad(set_to_none=True)
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(network.parameters(), 20.0)
+        optimizer.step()
+        scheduler.step()
+        total += float(errors.detach().sum())
+    return total / len(rows)
+
+
+def train(args) -> dict:
+    torch.set_num_threads(args.threads)
+    torch.manual_seed(args.seed)
+    rows = labels.read(args.labels, args.inputs, args.statuses.split(","))
+    parts = split(rows, args.turn)
+    train_rows, validation_rows, test_rows = parts
+    if len(train_rows) < 2 or not validation_rows:
+        raise SystemExit(f"{len(rows)} rows are too few to split into training and validation")
+    config = configuration(args, *parts)
+    args.out.mkdir(parents=True, exist_ok=True)
+    known = args.out / "config.json"
+    if known.is_file() and json.loads(known.read_text()) != config:
+        raise SystemExit(f"{args.out} holds a run with other settings or labels; give another --out")
+    known.write_text(json.dumps(config, indent=1))
+    # Beside the settings, since files may move without changing the run.
+    where = {"labels": str(args.labels.resolve()), "inputs": str(args.inputs.resolve())}
+    (args.out / "where.json").write_text(json.dumps(where))
+
+    device = torch.device(args.device)
+    network = PRVNet(config).to(device)
+    median = float(np.median([row.views for row in train_rows]))
+    network.start_at(median)
+    if args.freeze:
+        network.encoder.requires_grad_(False)
+        source = Bank(args.bank, args.inputs, rows, network, args.variants, device)
+    else:
+        source = Photos(args.inputs, rows, args.size)
+    groups = [{"params": network.heads.parameters(), "lr": args.lr}]
+    if not args.freeze:
+        groups.append({"params": network.encoder.parameters(), "lr": args.encoder_lr * args.batch / 256})
+    optimizer = torch.optim.AdamW(groups, betas=(0.9, 0.95), weight_decay=args.weight_decay)
+    steps = max(1, -(-len(train_rows) // args.batch)) * args.epochs
+    warm = max(1, steps // 20)
+    scheduler = torch.optim.lr_scheduler.LambdaLR(
+        optimizer, lambda step: min((step + 1) / warm, 0.5 + 0.5 * math.cos(math.pi * min(1.0, step / steps)))
+    )
+    # A frozen encoder is what the package gives: only what was trained is kept.
+    kept = (lambda: network.heads.state_dict()) if args.freeze else network.state_dict
+    load = network.heads.load_state_dict if args.freeze else network.load_state_dict
+
+    last, best, first_epoch = args.out / "last.pt", float("inf"), 0
+    if last.is_file():
+        state = torch.load(last, map_location=device, weights_only=True)
+        load(state["weights"])
+        optimizer.load_state_dict(state["optimizer"])
+        scheduler.load_state_dict(state["scheduler"])
+        best, first_epoch = state["best"], state["epoch"]
+    constant = metrics.l1(median, [row.views for row in validation_rows])
+    print(f"{len(train_rows)} rows to train on, {len(validation_rows)} to choose by, {len(test_rows)} held out; "
+          f"labels {config['range']}, validation L1 of the training median {constant:.2f}")  # fmt: skip
+
+    log = args.out / "log.csv"
+    if first_epoch == 0 or not log.is_file():
+        log.write_text("epoch,train_l1,validation_l1,best\n")
+    bar = tqdm(range(first_epoch, args.epochs), initial=first_epoch, total=args.epochs, unit="epoch")
+    for epoch in bar:
+        error = epoch_of(network, source, train_rows, args, epoch, optimizer, scheduler, device)
+        validation = evaluate(network, source, validation_rows, device)
+        if validation < best:
+            best = validation
+            save({"weights": kept(), "config": config, "epoch": epoch + 1, "validation_l1": best}, args.out / "best.pt")
+        with open(log, "a", newline="") as file:
+            csv.writer(file).writerow([epoch + 1, f"{error:.4f}", f"{validation:.4f}", f"{best:.4f}"])
+        # Frozen epochs take less time than writing the state does.
+        if not args.freeze or (epoch + 1) % 10 == 0 or epoch + 1 == args.epochs:
+            state = {"optimizer": optimizer.state_dict(), "scheduler": scheduler.state_dict()}
+            save({"weights": kept(), **state, "best": best, "epoch": epoch + 1}, last)
+        bar.set_postfix(train=f"{error:.2f}", validation=f"{validation:.2f}", best=f"{best:.2f}")
+    return config
+
+
+def save(state, path: Path):
+    partial = path.with_suffix(".part")
+    torch.save(state, partial)
+    partial.rename(path)
+
+
+def load_best(run: Path, device="cpu") -> PRVNet:
+    """The network of a run's best.pt, ready to be used."""
+    state = torch.load(run / "best.pt", map_location=device, weights_only=True)
+    network = PRVNet(state["config"])
+    (network.heads if state["config"]["freeze"] else network).load_state_dict(state["weights"])
+    return network.to(device).eval()
+
+
+if __name__ == "__main__":
+    train(arguments())

@@ -1,0 +1,82 @@
+"""What needs PyTorch: the network, and the way from labels to a model file."""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch")
+pytestmark = pytest.mark.torch
+
+sys.path.insert(0, str(Path(__file__).parent))
+import synthetic
+from prvnet import card, export, model, train
+from prvnet.onnx_model import OnnxModel
+
+CONFIG = {"encoder": "convnextv2_atto", "size": 64, "levels": "all", "head": "small", "heads": 2, "range": [13, 58]}
+
+
+@pytest.fixture(scope="module")
+def network():
+    torch.manual_seed(0)
+    return model.PRVNet(CONFIG).eval()
+
+
+def test_mean_and_variance_are_numpys():
+    features = torch.rand(4, 3, 7)
+    expected = np.concatenate([features.numpy().mean(1), features.numpy().var(1, ddof=1)], 1)
+    assert np.allclose(model.mean_and_variance(features).numpy(), expected, atol=1e-6)
+
+
+def test_the_order_of_images_does_not_matter(network):
+    images = torch.rand(1, 4, 3, 64, 64)
+    assert torch.allclose(network(images), network(images[:, [2, 0, 3, 1]]), atol=1e-4)
+
+
+def test_a_single_image_is_fed_twice(network):
+    image = torch.rand(1, 1, 3, 64, 64)
+    assert torch.allclose(network(image), network(torch.cat([image, image], 1)), atol=1e-5)
+
+
+@pytest.mark.parametrize("head", ["small", "paper"])
+@pytest.mark.parametrize("encoder", ["efficientnet_lite0", "convnextv2_atto"])
+def test_training_starts_at_the_given_count_within_the_range(encoder, head):
+    network = model.PRVNet({**CONFIG, "encoder": encoder, "head": head}).eval()
+    network.start_at(30.0)
+    assert abs(float(network(torch.rand(1, 3, 3, 64, 64)).detach().mean()) - 30) < 10
+
+
+def test_features_of_a_frozen_encoder_give_the_images_answer(network):
+    images = torch.rand(2, 3, 3, 64, 64)
+    assert torch.allclose(network(images), network(network.encode(images)), atol=1e-4)
+
+
+@pytest.mark.parametrize("freeze", [True, False])
+def test_labels_become_a_model_file(tmp_path, freeze):
+    synthetic.make(tmp_path, objects=40, size=64)
+    options = ["--labels", tmp_path / "labels.csv", "--inputs", tmp_path / "inputs", "--out", tmp_path / "run",
+               "--size", 64, "--encoder", "efficientnet_lite0" if freeze else "convnextv2_atto",
+               "--epochs", 3, "--variants", 2, "--heads", 2, "--device", "cpu"]  # fmt: skip
+    train.train(train.arguments(list(map(str, options))))
+    log = (tmp_path / "run" / "log.csv").read_text().splitlines()
+    assert len(log) == 4
+    # The same command again finds the run finished and adds nothing.
+    train.train(train.arguments(list(map(str, options))))
+    assert (tmp_path / "run" / "log.csv").read_text().splitlines() == log
+    with pytest.raises(SystemExit, match="other settings"):
+        train.train(train.arguments(list(map(str, [*options, "--batch", 16]))))
+
+    file = tmp_path / "prvnet.onnx"
+    export.main(["--run", str(tmp_path / "run"), "--out", str(file)])
+    onnx_model = OnnxModel(file)
+    config = json.loads((tmp_path / "run" / "config.json").read_text())
+    assert onnx_model.metadata["prv.trained_on"] == str(len(config["rows"]["train"]))
+    assert config["range"][0] <= onnx_model.predict(np.random.rand(3, 3, 64, 64)) <= config["range"][1]
+
+    path = tmp_path / "CARD.md"
+    path.write_text("# Card\n\nby hand\n")
+    for _ in range(2):
+        card.main(["--run", str(tmp_path / "run"), "--model", str(file), "--card", str(path)])
+    assert path.read_text().count("best constant") == 1 and "by hand" in path.read_text()
