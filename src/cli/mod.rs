@@ -1,8 +1,10 @@
 //! The command line: one file a subcommand, each with its arguments and its `run`.
 
-mod health;
 mod camera_flag;
+mod health;
+mod objects;
 mod predict;
+mod render;
 
 use std::process::ExitCode;
 
@@ -23,6 +25,10 @@ enum Command {
     Health(health::Args),
     /// Predict how many views an object needs.
     Predict(predict::Args),
+    /// List the usable objects in folders and furniture libraries.
+    Objects(objects::Args),
+    /// Render an object.
+    Render(render::Args),
 }
 
 /// What a subcommand returns: an error is printed to stderr and becomes exit code 1.
@@ -34,6 +40,8 @@ pub fn run() -> ExitCode {
     let result: CliResult = match cli.command {
         Command::Health(args) => health::run(&args),
         Command::Predict(args) => predict::run(&args),
+        Command::Objects(args) => objects::run(&args),
+        Command::Render(args) => render::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,1 +1,28 @@
-//! (under construction)
+//! Textured triangle meshes: loading, sample objects, and a rasteriser for one CPU core.
+//!
+//! Meshes are z-up and in metres once fitted; loaders turn y-up files. Nothing here
+//! knows what the images are for.
+
+mod bounding_sphere;
+mod light;
+pub mod load;
+mod mesh;
+mod normals;
+mod objects;
+mod project;
+mod raster;
+mod renderer;
+pub mod samples;
+mod settings;
+mod shade;
+mod srgb;
+mod texture;
+
+pub use bounding_sphere::{BoundingSphere, bounding_sphere};
+pub use light::{DirectionalLight, Light};
+pub use load::MeshError;
+pub use mesh::{Material, Mesh, MeshWarning};
+pub use objects::{ObjectEntry, Unusable, find_objects, look_at_objects, object_at};
+pub use renderer::Renderer;
+pub use samples::{sample_names, sample_object};
+pub use settings::RenderSettings;
