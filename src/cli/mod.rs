@@ -3,6 +3,7 @@
 mod camera_flag;
 mod health;
 mod objects;
+mod inputs;
 mod predict;
 mod render;
 
@@ -23,6 +24,8 @@ struct Cli {
 enum Command {
     /// Ask a running service whether it is ready.
     Health(health::Args),
+    /// Render the initial photos of labelled objects, cut for training.
+    Inputs(inputs::Args),
     /// Predict how many views an object needs.
     Predict(predict::Args),
     /// List the usable objects in folders and furniture libraries.
@@ -39,6 +42,7 @@ pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let result: CliResult = match cli.command {
         Command::Health(args) => health::run(&args),
+        Command::Inputs(args) => inputs::run(&args),
         Command::Predict(args) => predict::run(&args),
         Command::Objects(args) => objects::run(&args),
         Command::Render(args) => render::run(&args),
