@@ -6,6 +6,7 @@ mod objects;
 mod inputs;
 mod predict;
 mod render;
+mod robots;
 
 use std::process::ExitCode;
 
@@ -32,6 +33,8 @@ enum Command {
     Objects(objects::Args),
     /// Render an object.
     Render(render::Args),
+    /// List the built-in robots, their limits and the sources of their numbers.
+    Robots(robots::Args),
 }
 
 /// What a subcommand returns: an error is printed to stderr and becomes exit code 1.
@@ -46,6 +49,7 @@ pub fn run() -> ExitCode {
         Command::Predict(args) => predict::run(&args),
         Command::Objects(args) => objects::run(&args),
         Command::Render(args) => render::run(&args),
+        Command::Robots(args) => robots::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,0 +1,29 @@
+//! What the benches share: a median of several runs, and one row a figure.
+#![allow(dead_code)]
+
+use std::time::Instant;
+
+/// Median over `runs` runs of the seconds that one of `repeats` calls takes.
+pub fn median_time(runs: usize, repeats: usize, mut call: impl FnMut()) -> f64 {
+    call();
+    let mut seconds: Vec<f64> = (0..runs.max(1))
+        .map(|_| {
+            let start = Instant::now();
+            (0..repeats.max(1)).for_each(|_| call());
+            start.elapsed().as_secs_f64() / repeats.max(1) as f64
+        })
+        .collect();
+    seconds.sort_by(f64::total_cmp);
+    seconds[seconds.len() / 2]
+}
+
+/// Prints a figure beside its bound, and whether it holds.
+pub fn row(name: &str, value: f64, unit: &str, bound: Option<f64>) {
+    match bound {
+        Some(bound) => {
+            let verdict = if value <= bound { "ok" } else { "OVER" };
+            println!("{name:<58} {value:>12.3} {unit:<6} bound {bound:>10.3}  {verdict}");
+        }
+        None => println!("{name:<58} {value:>12.3} {unit}"),
+    }
+}

@@ -1,0 +1,70 @@
+//! `prv robots`: the built-in arms, their limits and where the numbers come from.
+
+use prv::robot::RobotModel;
+
+use super::CliResult;
+
+/// List the built-in robots with their joints, limits and the sources of their numbers.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Only this robot.
+    #[arg(env = "PRV_ROBOT")]
+    model: Option<String>,
+    /// Print JSON.
+    #[arg(long, env = "PRV_JSON")]
+    json: bool,
+}
+
+/// Prints the list.
+pub fn run(args: &Args) -> CliResult {
+    let robots = match &args.model {
+        Some(name) => vec![RobotModel::named(name)?],
+        None => RobotModel::names().into_iter().map(RobotModel::named).collect::<Result<Vec<_>, _>>()?,
+    };
+    if args.json {
+        let list: Vec<_> = robots.iter().map(json).collect();
+        println!("{:#}", serde_json::json!({ "robots": list }));
+    } else {
+        robots.iter().for_each(print);
+    }
+    Ok(())
+}
+
+fn json(robot: &RobotModel) -> serde_json::Value {
+    let joints: Vec<_> = robot
+        .joints
+        .iter()
+        .map(|joint| {
+            serde_json::json!({
+                "name": joint.name,
+                "lower_rad": joint.lower_rad,
+                "upper_rad": joint.upper_rad,
+                "max_speed_rad_per_s": joint.max_speed_rad_per_s,
+                "max_acceleration_rad_per_s2": joint.max_acceleration_rad_per_s2,
+            })
+        })
+        .collect();
+    serde_json::json!({
+        "name": robot.name,
+        "base_frame": robot.base_frame,
+        "flange_frame": robot.flange_frame,
+        "joints": joints,
+        "sources": robot.sources,
+    })
+}
+
+fn print(robot: &RobotModel) {
+    println!("{}  ({} -> {})", robot.name, robot.base_frame, robot.flange_frame);
+    for joint in &robot.joints {
+        println!(
+            "  {:<20} {:>8.2} .. {:>7.2} deg {:>8.1} deg/s {:>8.1} deg/s2",
+            joint.name,
+            joint.lower_rad.to_degrees(),
+            joint.upper_rad.to_degrees(),
+            joint.max_speed_rad_per_s.to_degrees(),
+            joint.max_acceleration_rad_per_s2.to_degrees(),
+        );
+    }
+    robot.sources.iter().for_each(|source| println!("  - {source}"));
+    println!();
+}
