@@ -8,6 +8,7 @@ use super::descent::{Bounds, Descent, descend};
 use super::starts::start;
 use crate::geometry::Pose;
 use crate::robot::postures::{Postures, sort_by_move};
+use crate::robot::ur::{Branches, UrShape};
 use crate::robot::{
     Chain, InverseFailure, InverseSolutions, Joint, Kinematics, MAX_JOINTS, ReachBound, RobotError,
     UnreachableReason,
@@ -37,15 +38,21 @@ const SAME: f64 = 1e-3;
 /// As [`SAME`] for arms with a joint to spare, whose solutions form curves.
 const SAME_REDUNDANT: f64 = 0.2;
 
+/// Branches of the closed form that miss by more than this are no use as starts, metres.
+const BRANCH_RESIDUAL_M: f64 = 0.05;
+
 /// Kinematics of any chain: damped least squares from many starts.
 ///
 /// The starts are fixed, so that the same call gives the same answer. It
 /// finds most branches of a six-joint arm and a sample of a seven-joint
-/// arm's, without proof of having all.
+/// arm's, without proof of having all. A chain built like a UR arm, or nearly
+/// so, starts from the closed form's branches and finds all of them.
 #[derive(Debug, Clone)]
 pub struct NumericKinematics {
     chain: Chain,
     joints: Vec<Joint>,
+    /// The chain as a UR arm, whose branches are the best starts there are.
+    ur: Option<UrShape>,
 }
 
 impl NumericKinematics {
@@ -54,7 +61,8 @@ impl NumericKinematics {
         if joints.len() != chain.dof() {
             return Err(RobotError::StateLength { found: joints.len(), expected: chain.dof() });
         }
-        Ok(Self { chain, joints })
+        let ur = UrShape::of(&chain);
+        Ok(Self { chain, joints, ur })
     }
 
     /// Searches from `seeds`, then from the fixed starts; `enough` solutions end it.
@@ -67,10 +75,16 @@ impl NumericKinematics {
         }
         let target = Pose::from_parts(target.translation, rotation);
         let seeds: Vec<[f64; MAX_JOINTS]> = seeds.iter().map(|seed| self.within_limits(seed)).collect();
+        let mut postures = Postures::new(&self.joints, seeds.first().map(<[f64; MAX_JOINTS]>::as_slice));
+        if let Some(ur) = &self.ur {
+            let branches = self.search_branches(ur, &target, seeds.first(), &mut postures);
+            if let Some(branches) = branches.filter(|_| !postures.within().is_empty() || ur.is_exact()) {
+                return postures.finish(|| self.branch_miss(ur, &branches));
+            }
+        }
         if let Some(failure) = self.beyond_reach(&target, seeds.first()) {
             return InverseSolutions::failed(failure);
         }
-        let mut postures = Postures::new(&self.joints, seeds.first().map(<[f64; MAX_JOINTS]>::as_slice));
         let mut nearest: Option<Descent> = None;
         let (mut idle, mut attempts) = (0, 0);
         for from in seeds.iter().copied().chain((0..MOST_STARTS).map(|i| start(&self.joints, i))) {
@@ -95,6 +109,36 @@ impl NumericKinematics {
             self.search_beyond_limits(&target, &mut postures);
         }
         postures.finish(|| self.miss(nearest, attempts))
+    }
+
+    /// Descends from the closed form's branches. On an exact UR chain that ends
+    /// where it starts; on a calibrated one a few steps away.
+    fn search_branches(
+        &self,
+        ur: &UrShape,
+        target: &Pose,
+        seed: Option<&[f64; MAX_JOINTS]>,
+        postures: &mut Postures<'_>,
+    ) -> Option<Branches> {
+        let branches = ur.branches(target, seed.map(<[f64; MAX_JOINTS]>::as_slice).unwrap_or_default())?;
+        let mut found: Vec<[f64; MAX_JOINTS]> = Vec::with_capacity(branches.all().len());
+        for branch in branches.all().iter().filter(|b| b.position_residual_m < BRANCH_RESIDUAL_M) {
+            let mut from = [0.0; MAX_JOINTS];
+            from.iter_mut().zip(ur.joints_rad(&branch.joints_rad)).for_each(|(slot, q)| *slot = q);
+            let end = descend(&self.chain, Bounds::Free, target, &from);
+            if end.reaches(REACHED) && !found.iter().any(|known| self.same(known, &end.joints_rad)) {
+                found.push(end.joints_rad);
+                postures.add(self.cut(&end));
+            }
+        }
+        Some(branches)
+    }
+
+    /// The failure of a target that no branch of an exact UR chain reaches.
+    fn branch_miss(&self, ur: &UrShape, branches: &Branches) -> InverseFailure {
+        let mut failure = branches.failure();
+        failure.nearest = ur.joints_rad(&branches.nearest().joints_rad).to_vec();
+        failure
     }
 
     /// Solutions of the same chain without limits, to name the limit in the way.

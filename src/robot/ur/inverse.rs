@@ -20,7 +20,7 @@ use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::UrParameters;
 use crate::geometry::Pose;
-use crate::robot::ReachBound;
+use crate::robot::{InverseFailure, ReachBound, UnreachableReason};
 
 /// Residual under which a branch counts as solved, metres and radians.
 pub const EXACT: f64 = 1e-9;
@@ -70,6 +70,20 @@ impl Branches {
             }
         }
         nearest
+    }
+
+    /// Why no branch reaches the target: how far the nearest one stays away.
+    pub fn failure(&self) -> InverseFailure {
+        let nearest = self.nearest();
+        InverseFailure {
+            nearest: nearest.joints_rad.to_vec(),
+            position_residual_m: nearest.position_residual_m,
+            rotation_residual_rad: nearest.rotation_residual_rad,
+            reason: UnreachableReason::OutOfReach {
+                beyond_m: nearest.position_residual_m,
+                bound: nearest.held_by.unwrap_or(ReachBound::TooFar),
+            },
+        }
     }
 
     fn repeats(&self, index: usize) -> bool {

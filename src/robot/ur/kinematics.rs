@@ -3,15 +3,12 @@
 use nalgebra::Matrix6xX;
 
 use super::UrParameters;
-use super::inverse::{Branch, Branches, EXACT};
+use super::inverse::{Branches, EXACT};
 use crate::geometry::Pose;
 use crate::robot::dh::chain_from_dh;
 use crate::robot::numeric::{Bounds, descend};
 use crate::robot::postures::{Postures, sort_by_move};
-use crate::robot::{
-    Chain, DhConvention, InverseFailure, InverseSolutions, Joint, Kinematics, MAX_JOINTS, ReachBound,
-    RobotError, UnreachableReason,
-};
+use crate::robot::{Chain, DhConvention, InverseSolutions, Joint, Kinematics, MAX_JOINTS, RobotError};
 
 /// Branches that miss by less than this may be polished, metres.
 const POLISHABLE_M: f64 = 1e-6;
@@ -50,7 +47,7 @@ impl UrKinematics {
         if postures.is_empty() {
             self.polish(base_from_flange, &branches, &mut postures);
         }
-        postures.finish(|| self.miss(&branches))
+        postures.finish(|| branches.failure())
     }
 
     /// Where two singularities meet, the closed form loses up to half of the
@@ -63,20 +60,6 @@ impl UrKinematics {
             if end.reaches(EXACT) {
                 postures.add(&end.joints_rad);
             }
-        }
-    }
-
-    /// The failure of a target that no branch reaches.
-    fn miss(&self, branches: &Branches) -> InverseFailure {
-        let nearest: &Branch = branches.nearest();
-        InverseFailure {
-            nearest: nearest.joints_rad.to_vec(),
-            position_residual_m: nearest.position_residual_m,
-            rotation_residual_rad: nearest.rotation_residual_rad,
-            reason: UnreachableReason::OutOfReach {
-                beyond_m: nearest.position_residual_m,
-                bound: nearest.held_by.unwrap_or(ReachBound::TooFar),
-            },
         }
     }
 }

@@ -76,6 +76,28 @@ fn the_ur5e_from_urdf_moves_as_the_built_in_one() {
 }
 
 #[test]
+fn a_ur_from_urdf_has_all_eight_branches_and_says_how_far_it_falls_short() {
+    let robot = RobotModel::from_urdf(&ur5e_urdf(), None, None).unwrap();
+    let q = [0.3, -1.2, 1.4, -0.9, 1.1, 0.4];
+    let target = robot.kinematics.forward(&q);
+    let answer = robot.kinematics.inverse_near(&target, &q);
+    assert_eq!(answer.solutions.len(), 8);
+    assert!(answer.solutions[0].iter().zip(&q).all(|(a, b)| (a - b).abs() < 1e-8));
+    for state in &answer.solutions {
+        let reached = robot.kinematics.forward(state);
+        assert!((reached.to_homogeneous() - target.to_homogeneous()).norm() < 1e-8);
+    }
+    let failure = robot.kinematics.inverse(&Pose::translation(0.0, 1.0, 0.3), &[]).failure.unwrap();
+    assert!(
+        matches!(failure.reason, crate::robot::UnreachableReason::OutOfReach { beyond_m, .. } if beyond_m > 0.05)
+    );
+    let reached = robot.kinematics.forward(&failure.nearest).translation.vector;
+    assert!(
+        ((reached - nalgebra::Vector3::new(0.0, 1.0, 0.3)).norm() - failure.position_residual_m).abs() < 1e-9
+    );
+}
+
+#[test]
 fn shapes_of_fixed_links_belong_to_the_moving_link_and_meshes_are_named() {
     let robot = RobotModel::from_urdf(&ur5e_urdf(), None, None).unwrap();
     assert_eq!(robot.links.len(), 7);
