@@ -15,6 +15,8 @@ pub mod nerf;
 pub mod render;
 pub mod robot;
 
+pub mod motion;
+
 pub mod predict;
 
 pub mod plan;

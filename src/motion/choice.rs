@@ -1,0 +1,174 @@
+//! The choice of branch, whole turns and roll for all views together.
+//!
+//! Dynamic programming over the views in order. A label is a joint state at a
+//! view with the cheapest way to it. From a label every candidate of the next
+//! view is reached at the whole turns nearest to it within the limits; at the
+//! first view all turns start a label. Since the cost is a metric, a label
+//! that is no cheaper than going to it from another label of the same view is
+//! of no use to any later view and is dropped (this loses nothing); beyond that,
+//! the cheapest [`MOST_LABELS`] of a view go on.
+
+use std::f64::consts::{PI, TAU};
+
+use super::candidates::{Candidate, turns};
+use super::joints::Joints;
+use super::metric::Metric;
+
+/// Labels of a view that go on to the next.
+const MOST_LABELS: usize = 64;
+/// Labels that a view can begin a motion with.
+const MOST_FIRST_LABELS: usize = 2048;
+/// Cheapest labels of a view against which the others are tested for use.
+const JUDGES: usize = 8;
+/// Cost of a radian away from the middle of a joint's range at the first view
+/// of a motion without a start: decides between equals only.
+const PREFER_MIDDLE: f64 = 1e-4;
+
+/// A view in the order, with its candidates.
+#[derive(Clone, Debug)]
+pub(crate) struct Layer {
+    pub view: usize,
+    pub candidates: Vec<Candidate>,
+    /// Moves into this view whose cost is not the metric's.
+    pub priced: Vec<PricedMove>,
+}
+
+/// A move that was found to collide: what it costs instead, infinite if there is no way.
+#[derive(Clone, Debug)]
+pub(crate) struct PricedMove {
+    pub from: Joints,
+    pub to: Joints,
+    pub cost: f64,
+}
+
+/// A joint state at a view and the cheapest way to it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Label {
+    pub joints: Joints,
+    pub candidate: usize,
+    pub cost: f64,
+    parent: usize,
+}
+
+/// The dynamic programme; layers may change from some index on and be chosen again.
+pub(crate) struct Chooser {
+    metric: Metric,
+    lower: Joints,
+    upper: Joints,
+    start: Option<Joints>,
+    labels: Vec<Vec<Label>>,
+}
+
+impl Chooser {
+    pub fn new(metric: Metric, limits: (Joints, Joints), start: Option<Joints>) -> Self {
+        Self { metric, lower: limits.0, upper: limits.1, start, labels: Vec::new() }
+    }
+
+    /// The cheapest chain of labels, one a layer, if `layers` before `changed_from`
+    /// are as at the last call. `Err(k)`: no state of layer `k` can be reached.
+    pub fn choose(&mut self, layers: &[Layer], changed_from: usize) -> Result<Vec<Label>, usize> {
+        self.labels.truncate(changed_from);
+        for index in self.labels.len()..layers.len() {
+            let Some(layer) = layers.get(index) else { break };
+            let labels = match self.labels.last() {
+                None => self.first_labels(layer),
+                Some(previous) => {
+                    // Where moves onwards collide, a label may have the only free one: none is dropped.
+                    let all_moves_cost_the_metric = layers.get(index + 1).is_none_or(|l| l.priced.is_empty());
+                    self.next_labels(previous, layer, all_moves_cost_the_metric)
+                }
+            };
+            if labels.is_empty() {
+                return Err(index);
+            }
+            self.labels.push(labels);
+        }
+        let mut chain = Vec::with_capacity(layers.len());
+        let mut at = 0;
+        for labels in self.labels.iter().rev() {
+            let Some(label) = labels.get(at) else { break };
+            chain.push(*label);
+            at = label.parent;
+        }
+        chain.reverse();
+        Ok(chain)
+    }
+
+    fn first_labels(&self, layer: &Layer) -> Vec<Label> {
+        let mut labels = Vec::new();
+        for (candidate, state) in layer.candidates.iter().enumerate() {
+            for joints in turns(&state.joints, &self.lower, &self.upper, 256) {
+                let cost = match &self.start {
+                    Some(start) => move_cost(&self.metric, layer, start, &joints),
+                    None => self.distance_from_middle(&joints) * PREFER_MIDDLE,
+                };
+                labels.push(Label { joints, candidate, cost, parent: 0 });
+            }
+        }
+        labels.retain(|label| label.cost.is_finite());
+        labels.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        labels.truncate(MOST_FIRST_LABELS);
+        labels
+    }
+
+    fn next_labels(&self, previous: &[Label], layer: &Layer, may_drop: bool) -> Vec<Label> {
+        let mut labels: Vec<Label> = Vec::with_capacity(2 * MOST_LABELS);
+        let mut of_candidate: Vec<Label> = Vec::new();
+        for (candidate, state) in layer.candidates.iter().enumerate() {
+            of_candidate.clear();
+            // Cheapest first, so that most others are useless when they come.
+            for (parent, before) in previous.iter().enumerate() {
+                let joints = self.nearest_turns(&state.joints, &before.joints);
+                let cost = before.cost + move_cost(&self.metric, layer, &before.joints, &joints);
+                let useless = |known: &Label| known.cost + self.metric.cost(&known.joints, &joints) <= cost;
+                if cost.is_finite() && !of_candidate.iter().any(useless) {
+                    of_candidate.push(Label { joints, candidate, cost, parent });
+                }
+            }
+            labels.extend_from_slice(&of_candidate);
+        }
+        labels.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        self.keep_useful(labels, may_drop)
+    }
+
+    fn keep_useful(&self, labels: Vec<Label>, may_drop: bool) -> Vec<Label> {
+        let mut kept: Vec<Label> = Vec::with_capacity(MOST_LABELS);
+        for label in labels {
+            let useless = |judge: &Label| {
+                let same = judge.candidate == label.candidate;
+                (same || may_drop)
+                    && judge.cost + self.metric.cost(&judge.joints, &label.joints) <= label.cost
+            };
+            if kept.len() >= MOST_LABELS {
+                break;
+            }
+            if !kept.iter().take(JUDGES).any(useless) {
+                kept.push(label);
+            }
+        }
+        kept
+    }
+
+    /// `joints` turned as near to `target` as the limits allow.
+    fn nearest_turns(&self, joints: &Joints, target: &Joints) -> Joints {
+        std::array::from_fn(|j| {
+            let (q, low, high) = (joints[j], self.lower[j], self.upper[j]);
+            if (target[j] - q).abs() <= PI {
+                return q;
+            }
+            let turns = ((target[j] - q) / TAU).round();
+            let least = ((low - q) / TAU - 1e-9).ceil();
+            let most = ((high - q) / TAU + 1e-9).floor();
+            (q + turns.max(least).min(most) * TAU).max(low).min(high)
+        })
+    }
+
+    fn distance_from_middle(&self, joints: &Joints) -> f64 {
+        (0..joints.len()).map(|j| (joints[j] - 0.5 * (self.lower[j] + self.upper[j])).abs()).sum()
+    }
+}
+
+fn move_cost(metric: &Metric, layer: &Layer, from: &Joints, to: &Joints) -> f64 {
+    let known = layer.priced.iter().find(|priced| priced.from == *from && priced.to == *to);
+    known.map_or_else(|| metric.cost(from, to), |priced| priced.cost)
+}

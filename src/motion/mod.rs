@@ -1,0 +1,41 @@
+//! The arm in its cell: from camera poses to a timed, collision-free joint motion.
+//!
+//! [`plan_motion`] finds the joint states that take each view, chooses among
+//! them for all views together, connects them by checked legs and times the
+//! whole. [`check`] judges a plan by code of its own. All frames are relative
+//! to the arm's base; metres, radians, seconds.
+
+mod along_path;
+mod candidates;
+mod cell;
+mod check;
+mod choice;
+mod contact;
+mod detour;
+mod distance;
+mod error;
+mod joints;
+mod levers;
+mod metric;
+mod plan;
+mod planner;
+mod request;
+mod resolve;
+mod rounded;
+mod scene;
+mod shape;
+mod sweep;
+mod trajectory;
+mod trapezoid;
+
+#[cfg(test)]
+mod tests;
+
+pub use cell::{Cell, KeepOut, LARGEST_LENGTH_M, ObjectSphere, d435_body, default_camera_body};
+pub use check::{Violation, check};
+pub use contact::{Contact, ContactKind};
+pub use error::MotionError;
+pub use plan::{Leg, LegStart, MotionPlan, PlannedView, SkipReason, TrajectoryPoint, ViewOutcome};
+pub use planner::plan_motion;
+pub use request::{MotionRequest, Order, OrderViews, Roll, Timing};
+pub use trajectory::MOST_POINTS;

@@ -1,0 +1,157 @@
+//! From legs to a sampled trajectory.
+
+use super::along_path::AlongPath;
+use super::error::MotionError;
+use super::joints::{Joints, difference, joints_from};
+use super::plan::TrajectoryPoint;
+use super::request::Timing;
+use super::resolve::Stop;
+use super::rounded::rounded;
+use super::scene::Scene;
+use super::sweep::Sweeper;
+use super::trapezoid::Trapezoid;
+
+/// Most points of a trajectory.
+pub const MOST_POINTS: usize = 1_000_000;
+
+/// A motion from rest to rest.
+enum Run {
+    Straight { from: Joints, step: Joints, progress: Trapezoid },
+    Along(AlongPath),
+}
+
+impl Run {
+    fn duration_s(&self) -> f64 {
+        match self {
+            Run::Straight { progress, .. } => progress.duration_s(),
+            Run::Along(path) => path.duration_s(),
+        }
+    }
+
+    fn at(&self, t_s: f64) -> (Joints, Joints, Joints) {
+        match self {
+            Run::Straight { from, step, progress } => {
+                let (s, speed, acceleration) = progress.at(t_s);
+                let position = std::array::from_fn(|j| from[j] + s * step[j]);
+                (position, step.map(|d| d * speed), step.map(|d| d * acceleration))
+            }
+            Run::Along(path) => path.at(t_s),
+        }
+    }
+}
+
+/// The sampled motion and when it arrives at each stop.
+pub(crate) struct Timed {
+    pub points: Vec<TrajectoryPoint>,
+    pub arrivals_s: Vec<f64>,
+}
+
+/// Times and samples the legs of `stops`, standing still for the settle time at each.
+pub(crate) fn timed(
+    scene: &Scene,
+    sweeper: &mut Sweeper,
+    start: Option<&Joints>,
+    stops: &[Stop],
+    first_relief_m: f64,
+    timing: &Timing,
+) -> Result<Timed, MotionError> {
+    let joints = &scene.cell.robot.joints;
+    let scale = timing.speed_scale;
+    let speeds: Vec<f64> = joints.iter().map(|j| j.max_speed_rad_per_s * scale).collect();
+    let accelerations: Vec<f64> =
+        joints.iter().map(|j| j.max_acceleration_rad_per_s2 * scale * scale).collect();
+    let (max_speed, max_acceleration) = (joints_from(&speeds), joints_from(&accelerations));
+    let mut recorder = Recorder { dof: scene.dof, now_s: 0.0, points: Vec::new() };
+    let mut arrivals_s = Vec::with_capacity(stops.len());
+    if let (Some(start), false) = (start, stops.is_empty()) {
+        recorder.rest(start, None);
+    }
+    for (i, stop) in stops.iter().enumerate() {
+        let relief_m = if i == 0 { first_relief_m } else { 0.0 };
+        let runs = match stop.waypoints.as_slice() {
+            [] => Vec::new(),
+            [from, to] => vec![straight(from, to, &max_speed, &max_acceleration)],
+            waypoints => rounded(scene, sweeper, waypoints, relief_m)
+                .into_iter()
+                .map(|pieces| Run::Along(AlongPath::new(pieces, &max_speed, &max_acceleration)))
+                .collect(),
+        };
+        for run in &runs {
+            recorder.record(run, timing.sample_period_s)?;
+        }
+        recorder.arrive(&stop.joints, stop.view);
+        arrivals_s.push(recorder.now_s);
+        if timing.settle_s > 0.0 {
+            recorder.now_s += timing.settle_s;
+            recorder.rest(&stop.joints, None);
+        }
+    }
+    Ok(Timed { points: recorder.points, arrivals_s })
+}
+
+fn straight(from: &Joints, to: &Joints, max_speed: &Joints, max_acceleration: &Joints) -> Run {
+    let step = difference(from, to);
+    Run::Straight { from: *from, step, progress: Trapezoid::new(&step, max_speed, max_acceleration) }
+}
+
+struct Recorder {
+    dof: usize,
+    now_s: f64,
+    points: Vec<TrajectoryPoint>,
+}
+
+impl Recorder {
+    /// A point at rest. Its acceleration is 0 even where a motion begins, so
+    /// that a controller's spline keeps still between two points at rest.
+    fn rest(&mut self, q: &Joints, view: Option<usize>) {
+        self.push(q, &[0.0; 8], &[0.0; 8], view);
+    }
+
+    fn push(&mut self, q: &Joints, velocity: &Joints, acceleration: &Joints, view: Option<usize>) {
+        let cut = |v: &Joints| v[..self.dof].to_vec();
+        self.points.push(TrajectoryPoint {
+            positions_rad: cut(q),
+            velocities_rad_per_s: cut(velocity),
+            accelerations_rad_per_s2: cut(acceleration),
+            time_from_start_s: self.now_s,
+            view,
+        });
+    }
+
+    /// Samples after the beginning of `run`, evenly, its end included.
+    fn record(&mut self, run: &Run, period_s: f64) -> Result<(), MotionError> {
+        let duration = run.duration_s();
+        let count = (duration / period_s).ceil().max(1.0);
+        if count + self.points.len() as f64 > MOST_POINTS as f64 {
+            return Err(MotionError::TooManyPoints { most: MOST_POINTS });
+        }
+        let begin_s = self.now_s;
+        for i in 1..=count as usize {
+            let t = duration * i as f64 / count;
+            self.now_s = begin_s + t;
+            let (q, v, a) = run.at(t);
+            if i == count as usize {
+                self.rest(&q, None);
+            } else {
+                self.push(&q, &v, &a, None);
+            }
+        }
+        Ok(())
+    }
+
+    /// Marks the last point as the arrival at a view; the first point of all if there is none yet.
+    fn arrive(&mut self, q: &Joints, view: usize) {
+        match self.points.last_mut() {
+            Some(point) if point.view.is_none() => {
+                // The run ends here up to rounding; the view's own state is exact.
+                point.positions_rad = q[..self.dof].to_vec();
+                point.view = Some(view);
+            }
+            Some(_) => {
+                self.now_s += 1e-3;
+                self.rest(q, Some(view));
+            }
+            None => self.rest(q, Some(view)),
+        }
+    }
+}
