@@ -57,7 +57,8 @@ impl FromStr for Shard {
     fn from_str(text: &str) -> Result<Self, String> {
         let bad = || format!("{text:?} is not a shard, must be i/n with 0 <= i < n, as in 0/4");
         let (index, count) = text.split_once('/').ok_or_else(bad)?;
-        let shard = Self { index: index.parse().map_err(|_| bad())?, count: count.parse().map_err(|_| bad())? };
+        let shard =
+            Self { index: index.parse().map_err(|_| bad())?, count: count.parse().map_err(|_| bad())? };
         if shard.index < shard.count { Ok(shard) } else { Err(bad()) }
     }
 }
@@ -83,7 +84,9 @@ pub fn run(args: &Args) -> CliResult {
     eprintln!("{all} objects, {} of this shard to label, {} finished", entries.len(), store.len());
 
     let bar = ProgressBar::new((entries.len() * view_counts().len()) as u64).with_style(
-        ProgressStyle::with_template("{elapsed_precise} [{wide_bar}] {pos}/{len} NeRFs, {eta_precise} left {msg}")?,
+        ProgressStyle::with_template(
+            "{elapsed_precise} [{wide_bar}] {pos}/{len} NeRFs, {eta_precise} left {msg}",
+        )?,
     );
     let settings = LabelSettings { run_seed: args.seed, ..LabelSettings::default() };
     let jobs = if args.jobs == 0 { std::thread::available_parallelism()?.get() } else { args.jobs };

@@ -2,8 +2,9 @@
 
 mod camera_flag;
 mod health;
-mod objects;
 mod inputs;
+mod label;
+mod objects;
 mod predict;
 mod render;
 mod robots;
@@ -23,6 +24,8 @@ struct Cli {
 /// One variant a subcommand; each holds the arguments defined in the file of its name.
 #[derive(Subcommand)]
 enum Command {
+    /// Label objects with the number of views a NeRF of them needs.
+    Label(label::Args),
     /// Ask a running service whether it is ready.
     Health(health::Args),
     /// Render the initial photos of labelled objects, cut for training.
@@ -44,6 +47,7 @@ pub type CliResult = Result<(), Box<dyn std::error::Error>>;
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let result: CliResult = match cli.command {
+        Command::Label(args) => label::run(&args),
         Command::Health(args) => health::run(&args),
         Command::Inputs(args) => inputs::run(&args),
         Command::Predict(args) => predict::run(&args),

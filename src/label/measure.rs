@@ -68,11 +68,11 @@ pub fn measure(
     let (mut psnr_db, mut ssim) = (Vec::new(), Vec::new());
     for (index, &count) in counts.iter().enumerate() {
         let photos = photographer.take(&tammes(count, Band::DEFAULT)?.directions);
-        let nerf_settings = NerfSettings { seed: seed.wrapping_add(count as u64), ..settings.nerf.clone() };
+        let nerf_settings = NerfSettings { seed: seed.wrapping_add(count as u64), ..settings.nerf };
         let nerf = train(&photos, &bounds, &nerf_settings, &mut |_| {})?;
         let quality = nerf.evaluate(&tests);
-        psnr_db.push(quality.psnr_db);
-        ssim.push(quality.ssim);
+        psnr_db.push(quality.mean_psnr_db());
+        ssim.push(quality.mean_ssim());
         progress(index + 1, counts.len());
     }
 
@@ -171,12 +171,12 @@ impl Photographer {
 fn thread_cpu_time() -> Duration {
     #[cfg(target_os = "linux")]
     {
-        let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
-        // SAFETY: `time` is a valid, writable timespec for the whole call.
-        if unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &mut time) } == 0 {
-            return Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec.unsigned_abs() as u32);
-        }
+        let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+        Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or(0))
     }
-    static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
-    START.get_or_init(std::time::Instant::now).elapsed()
+    #[cfg(not(target_os = "linux"))]
+    {
+        static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+        START.get_or_init(std::time::Instant::now).elapsed()
+    }
 }

@@ -8,5 +8,6 @@
 
 pub mod fit;
 pub mod lognormal;
+pub mod measure;
 pub mod protocol;
 pub mod store;
