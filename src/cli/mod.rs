@@ -5,9 +5,11 @@ mod health;
 mod inputs;
 mod label;
 mod objects;
+mod order;
 mod predict;
 mod render;
 mod robots;
+mod views;
 
 use std::process::ExitCode;
 
@@ -30,6 +32,8 @@ enum Command {
     Health(health::Args),
     /// Render the initial photos of labelled objects, cut for training.
     Inputs(inputs::Args),
+    /// Find the shortest path through points around an object.
+    Order(order::Args),
     /// Predict how many views an object needs.
     Predict(predict::Args),
     /// List the usable objects in folders and furniture libraries.
@@ -38,6 +42,8 @@ enum Command {
     Render(render::Args),
     /// List the built-in robots, their limits and the sources of their numbers.
     Robots(robots::Args),
+    /// Place views around an object, as far apart as they can be.
+    Views(views::Args),
 }
 
 /// What a subcommand returns: an error is printed to stderr and becomes exit code 1.
@@ -50,10 +56,12 @@ pub fn run() -> ExitCode {
         Command::Label(args) => label::run(&args),
         Command::Health(args) => health::run(&args),
         Command::Inputs(args) => inputs::run(&args),
+        Command::Order(args) => order::run(&args),
         Command::Predict(args) => predict::run(&args),
         Command::Objects(args) => objects::run(&args),
         Command::Render(args) => render::run(&args),
         Command::Robots(args) => robots::run(&args),
+        Command::Views(args) => views::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -5,16 +5,20 @@
 //! one, from the generator in `packing` otherwise; both are deterministic.
 
 mod band;
+mod covering;
 mod error;
 mod initial;
 mod packing;
+mod table;
 mod tammes;
 mod view_set;
 mod view_space;
 
 pub use band::Band;
+pub use covering::covering_radius_rad;
 pub use error::ViewsError;
 pub use initial::{InitialView, initial_views, initial_views_five};
+pub use table::generate_table;
 pub use tammes::{MAX_VIEWS, tammes};
 pub use view_set::{ViewSet, separation_rad};
 pub use view_space::ViewSpace;

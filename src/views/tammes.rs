@@ -1,6 +1,7 @@
 //! The views for a count and a band.
 
 use super::packing::{Effort, pack};
+use super::table;
 use super::{Band, ViewSet, ViewsError};
 
 /// Largest number of views a set may have.
@@ -10,7 +11,8 @@ pub const MAX_VIEWS: usize = 200;
 /// configuration"), of which `directions[0]` is the top view: the pole, or azimuth 0 at the band's
 /// highest elevation where that is below the pole.
 ///
-/// The band is closed: views may stand on its rim.
+/// The band is closed: views may stand on its rim. The default band comes from the committed
+/// table, others from the generator (about a second at a hundred views).
 ///
 /// # Errors
 /// `n` outside `1..=MAX_VIEWS`; a band that is none.
@@ -19,6 +21,11 @@ pub fn tammes(n: usize, band: Band) -> Result<ViewSet, ViewsError> {
         return Err(ViewsError::Count { count: n, min: 1, max: MAX_VIEWS });
     }
     band.validate()?;
+    if band == Band::DEFAULT
+        && let Some(directions) = table::look_up(n)
+    {
+        return Ok(ViewSet::from_directions(directions));
+    }
     Ok(ViewSet::from_directions(pack(n, band, Effort::INTERACTIVE)))
 }
 
@@ -28,11 +35,11 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(24))]
+        #![proptest_config(ProptestConfig::with_cases(10))]
 
         #[test]
         fn every_set_keeps_to_its_band_and_starts_at_its_top(
-            n in 1usize..14, low in -60.0..60.0f64, width in 1.0..30.0f64,
+            n in 1usize..11, low in -60.0..60.0f64, width in 1.0..30.0f64,
         ) {
             let band = Band::from_degrees(low, low + width).unwrap();
             let set = tammes(n, band).unwrap();

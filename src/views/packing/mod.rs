@@ -1,14 +1,17 @@
 //! The generator: `n` points of a band as far apart as possible, one of them fixed.
 //!
 //! Many starts are relaxed under a repulsion whose exponent grows ([`energy`], minimised by
-//! [`lbfgs`]); the best are then pushed to the exact local optimum of the least distance.
+//! [`lbfgs`]); the best are then pushed to the exact local optimum of the least distance ([`refine`]).
 //! Only operations that IEEE 754 defines exactly are used (no libm), so that every machine finds
 //! the same set.
 
+mod cholesky;
 mod energy;
 mod lbfgs;
+mod refine;
 mod relax;
 mod start;
+mod step_program;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -35,46 +38,102 @@ impl Region {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Effort {
     /// Pair distances the relaxations may compute, in all.
-    pair_evaluations: u64,
+    pub pair_evaluations: u64,
     /// Least number of starts, whatever they cost.
-    min_starts: usize,
+    pub min_starts: usize,
     /// Largest number of starts.
-    max_starts: usize,
+    pub max_starts: usize,
 }
 
 impl Effort {
     /// About a second for a hundred points.
     pub(super) const INTERACTIVE: Effort =
-        Effort { pair_evaluations: 100_000_000, min_starts: 4, max_starts: 200 };
+        Effort { pair_evaluations: 350_000_000, min_starts: 4, max_starts: 300 };
+    /// Some seconds: for tables.
+    pub(super) const THOROUGH: Effort =
+        Effort { pair_evaluations: 700_000_000, min_starts: 20, max_starts: 800 };
 }
+
+/// What refining a set costs beside a pair evaluation, per square of the number of points.
+const REFINING: usize = 1500;
+/// A relaxed set this much closer than the best (squared distance) is not worth refining.
+const PROMISING: f64 = 0.985;
 
 /// `n >= 1` points of `band`, the first fixed at its top.
 pub(super) fn pack(n: usize, band: Band, effort: Effort) -> Vec<Direction> {
-    let region = Region::of(band);
-    let mut best: Option<(f64, Vec<Vector>)> = None;
-    let mut spent = 0;
-    for attempt in 0..effort.max_starts {
-        if n < 2 || (attempt >= effort.min_starts && spent >= effort.pair_evaluations) {
-            break;
-        }
-        let mut rng = ChaCha8Rng::seed_from_u64((n as u64) << 32 | attempt as u64);
-        let relaxed = relax::relax(start::random_points(n, &region, &mut rng), &region);
-        spent += relaxed.pair_evaluations;
-        let distance = least_squared_distance(&relaxed.points);
-        if best.as_ref().is_none_or(|(least, _)| distance > *least) {
-            best = Some((distance, relaxed.points));
-        }
-    }
-    let points = best.map_or_else(|| vec![region.top], |(_, points)| points);
-    points.into_iter().map(Direction::new_normalize).collect()
+    let [points] = pack_for(n, band, [effort]);
+    points
 }
 
-/// Square of the least distance between two points.
+/// What [`pack`] finds with each of several efforts, least first, in one search.
+///
+/// Half of the attempts start at random; the other half move a few points of the best set so far,
+/// which keeps the parts of it that are already good.
+pub(super) fn pack_for<const K: usize>(n: usize, band: Band, efforts: [Effort; K]) -> [Vec<Direction>; K] {
+    let region = Region::of(band);
+    let mut best: Vec<Vector> = vec![region.top];
+    let mut best_square = 0.0;
+    let mut spent = 0;
+    let mut attempt = 0;
+    efforts.map(|effort| {
+        // Few points have few arrangements.
+        let most = if n < 2 { 0 } else { effort.max_starts.min(STARTS_PER_POINT * n) };
+        while attempt < most && (attempt < effort.min_starts || spent < effort.pair_evaluations) {
+            let mut rng = ChaCha8Rng::seed_from_u64(((n as u64) << 32) | attempt as u64);
+            let disturb = attempt >= FIRST_RANDOM && attempt % 2 == 1 && best.len() == n;
+            let begin = if disturb {
+                start::disturbed(&best, &region, &mut rng)
+            } else {
+                start::random_points(n, &region, &mut rng)
+            };
+            attempt += 1;
+            let relaxed = relax::relax(begin, &region, disturb);
+            spent += relaxed.pair_evaluations;
+            if !(least_squared_distance(&relaxed.points) >= PROMISING * best_square) {
+                continue;
+            }
+            let refined = refine::refine(&relaxed.points, &region);
+            spent += (REFINING * n * n) as u64;
+            let square = least_squared_distance(&refined);
+            if square > best_square * (1.0 + 1e-12) {
+                best_square = square;
+                best = refined;
+            }
+        }
+        canonical(best.clone()).into_iter().map(Direction::new_normalize).collect()
+    })
+}
+
+/// Attempts per point after which nothing new is to be expected.
+const STARTS_PER_POINT: usize = 10;
+/// Attempts before the best set is worth disturbing.
+const FIRST_RANDOM: usize = 6;
+
+/// From the top down; where heights agree, by azimuth. The fixed point stays first.
+fn canonical(mut points: Vec<Vector>) -> Vec<Vector> {
+    let below = |a: &Vector, b: &Vector| {
+        let rank = |v: &Vector| (-(v.z * 1e9).round(), (v.y < 0.0) as u8 as f64);
+        rank(a).0.total_cmp(&rank(b).0).then(rank(a).1.total_cmp(&rank(b).1)).then_with(|| {
+            // Upper half plane: x falls as the azimuth grows; lower half plane: it rises.
+            if a.y < 0.0 { a.x.total_cmp(&b.x) } else { b.x.total_cmp(&a.x) }
+        })
+    };
+    if let Some(free) = points.get_mut(1..) {
+        free.sort_by(below);
+    }
+    points
+}
+
+/// Square of the least distance between two points; NaN if a point is NaN.
 fn least_squared_distance(points: &[Vector]) -> f64 {
     let mut least = f64::INFINITY;
     for (i, a) in points.iter().enumerate() {
         for b in &points[..i] {
-            least = least.min((a - b).norm_squared());
+            let square = (a - b).norm_squared();
+            if square.is_nan() {
+                return square;
+            }
+            least = least.min(square);
         }
     }
     least

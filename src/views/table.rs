@@ -1,0 +1,94 @@
+//! The committed sets for the default band: best of a longer search than a request could wait for.
+//!
+//! One line per number of views: `n separation_deg generator_share | x y x y ...`, the directions
+//! from the second on (the first is the pole) with x and y in units of 1e-10 (z follows, it is
+//! never negative). `generator_share` is the separation that the generator reaches at request
+//! time divided by the table's.
+
+use std::fmt::Write;
+
+use super::packing::{Effort, pack_for};
+use super::{Band, MAX_VIEWS, ViewSet};
+use crate::geometry::{Direction, Vector};
+
+const TABLE: &str = include_str!("table_5_90.txt");
+/// Length of one unit of the table's numbers.
+const UNIT: f64 = 1e-10;
+/// A point of the table this near to the rim stands on it: its height was lost to the units.
+const AT_RIM: f64 = 1e-8;
+
+/// The set of `n` views for [`Band::DEFAULT`], if the table holds it.
+pub(super) fn look_up(n: usize) -> Option<Vec<Direction>> {
+    let line = TABLE.lines().filter(|line| !line.starts_with('#')).nth(n.checked_sub(1)?)?;
+    let (head, coordinates) = line.split_once('|')?;
+    if head.split(' ').next()?.parse() != Ok(n) {
+        return None;
+    }
+    let rim = Band::DEFAULT.heights().0;
+    let mut directions = vec![Vector::z_axis()];
+    let mut numbers = coordinates.split_ascii_whitespace();
+    while let Some(x) = numbers.next() {
+        let (x, y) =
+            (x.parse::<i64>().ok()? as f64 * UNIT, numbers.next()?.parse::<i64>().ok()? as f64 * UNIT);
+        let horizontal = x * x + y * y;
+        let z = (1.0 - horizontal).max(0.0).sqrt();
+        let (z, scale) =
+            if z < rim + AT_RIM { (rim, ((1.0 - rim * rim) / horizontal).sqrt()) } else { (z, 1.0) };
+        directions.push(Direction::new_normalize(Vector::new(x * scale, y * scale, z)));
+    }
+    (directions.len() == n).then_some(directions)
+}
+
+/// Generates the table's lines anew (minutes), handing over each with the number of its views; 0
+/// is the heading's.
+///
+/// # Errors
+/// Those of `line`, which end the work.
+pub fn generate_table<E>(mut line: impl FnMut(usize, &str) -> Result<(), E>) -> Result<(), E> {
+    line(
+        0,
+        "# Views for elevations 5 to 90 deg, written by `prv views --table`; src/views/table.rs tells the format.",
+    )?;
+    for n in 1..=MAX_VIEWS {
+        let [quick, set] =
+            pack_for(n, Band::DEFAULT, [Effort::INTERACTIVE, Effort::THOROUGH]).map(ViewSet::from_directions);
+        let share = quick.separation_rad / set.separation_rad;
+        let mut text = format!("{n} {:.7} {share:.6} |", set.separation_rad.to_degrees());
+        for direction in &set.directions[1..] {
+            // Writing to a string cannot fail.
+            let _ = write!(text, " {} {}", (direction.x / UNIT).round(), (direction.y / UNIT).round());
+        }
+        line(n, &text)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::views::packing::pack;
+
+    #[test]
+    fn the_table_holds_every_number_of_views_as_well_separated_as_it_says() {
+        for line in TABLE.lines().filter(|line| !line.starts_with('#')) {
+            let mut head = line.split(' ');
+            let n: usize = head.next().unwrap().parse().unwrap();
+            let separation_deg: f64 = head.next().unwrap().parse().unwrap();
+            let set = ViewSet::from_directions(look_up(n).unwrap());
+            assert_eq!(set.directions.len(), n);
+            assert_eq!(set.directions[0], Vector::z_axis());
+            assert!(set.directions.iter().all(|direction| Band::DEFAULT.contains(direction, 1e-9)));
+            assert!((set.separation_rad.to_degrees() - separation_deg).abs() < 2e-6, "{n}");
+        }
+        assert_eq!(TABLE.lines().filter(|line| !line.starts_with('#')).count(), MAX_VIEWS);
+    }
+
+    #[test]
+    fn the_generator_alone_comes_close_to_the_table() {
+        for n in [5, 12, 35] {
+            let table = ViewSet::from_directions(look_up(n).unwrap());
+            let generated = ViewSet::from_directions(pack(n, Band::DEFAULT, Effort::INTERACTIVE));
+            assert!(generated.separation_rad > 0.997 * table.separation_rad, "{n}");
+        }
+    }
+}
