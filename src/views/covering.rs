@@ -19,9 +19,9 @@ pub fn covering_radius_rad(directions: &[Direction], band: Band) -> f64 {
         if candidate.z < low - 1e-9 || candidate.z > high + 1e-9 {
             return;
         }
-        let nearest = directions.iter().map(|d| d.dot(&candidate)).fold(-1.0, f64::max);
-        // Cosines first: most candidates lie near a view.
-        if nearest < worst.cos() + 1e-12 {
+        // Most candidates lie near some view: they are out as soon as it is met.
+        let near = worst.cos() + 1e-12;
+        if directions.iter().all(|d| d.dot(&candidate) < near) {
             let radius = directions.iter().map(|d| angle(d, &candidate)).fold(f64::INFINITY, f64::min);
             worst = worst.max(radius);
         }
@@ -42,12 +42,11 @@ pub fn covering_radius_rad(directions: &[Direction], band: Band) -> f64 {
             }
         }
     }
-    let near = neighbours(directions);
     for (i, a) in directions.iter().enumerate() {
-        for (at, &j) in near[i].iter().enumerate() {
-            for &k in &near[i][..at] {
-                let normal = (directions[j].into_inner() - a.into_inner())
-                    .cross(&(directions[k].into_inner() - a.into_inner()));
+        for (j, b) in directions[..i].iter().enumerate() {
+            let chord = b.into_inner() - a.into_inner();
+            for c in &directions[..j] {
+                let normal = chord.cross(&(c.into_inner() - a.into_inner()));
                 let length = normal.norm();
                 if length > 1e-12 {
                     consider(normal / length);
@@ -57,11 +56,6 @@ pub fn covering_radius_rad(directions: &[Direction], band: Band) -> f64 {
         }
     }
     worst
-}
-
-/// For each direction those with a larger index, all of them: a hole may be bounded by far views.
-fn neighbours(directions: &[Direction]) -> Vec<Vec<usize>> {
-    (0..directions.len()).map(|i| (i + 1..directions.len()).collect()).collect()
 }
 
 /// Unit vectors of height `z` with the same angle to `a` and `b`.
