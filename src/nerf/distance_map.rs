@@ -9,7 +9,7 @@ const FARTHEST: u8 = 16;
 /// x fastest; 0 in an occupied cell.
 #[derive(Clone, Debug)]
 pub(super) struct DistanceMap {
-    distance: Vec<u8>,
+    distance: Box<[u8; CELLS * CELLS * CELLS]>,
 }
 
 impl DistanceMap {
@@ -23,7 +23,7 @@ impl DistanceMap {
             .chunks_exact(CELLS)
             .map(|row| row.iter().rev().fold(0, |bits, &o| bits << 1 | u64::from(o)))
             .collect();
-        let mut distance = vec![FARTHEST; CELLS * CELLS * CELLS];
+        let mut distance = Box::new([FARTHEST; CELLS * CELLS * CELLS]);
         let mut seen = vec![0u64; rows.len()];
         for d in 0..FARTHEST {
             let mut changed = false;
@@ -44,8 +44,14 @@ impl DistanceMap {
         DistanceMap { distance }
     }
 
+    /// Distances of all cells, x fastest.
+    #[inline(always)]
+    pub fn cells(&self) -> &[u8; CELLS * CELLS * CELLS] {
+        &self.distance
+    }
+
     /// Distance of the cell that holds `position`; positions outside the cube count as on its rim.
-    #[inline]
+    #[cfg(test)]
     pub fn cells_to_occupied(&self, position: [f32; 3]) -> u8 {
         // The cast saturates: negative and NaN to 0.
         let [x, y, z] = position.map(|p| ((p * CELLS as f32) as usize).min(CELLS - 1));

@@ -9,6 +9,7 @@ mod composite;
 mod distance_map;
 mod error;
 mod field;
+mod march;
 mod occupancy;
 mod ray;
 mod settings;

@@ -10,9 +10,12 @@ use super::simd::{InstructionSet, LANES};
 
 /// What a cell keeps of its opacity from one update to the next.
 const DECAY: f32 = 0.9;
-/// Opacity of one step from which a cell counts as occupied; samples below it
-/// would have too little weight to be kept.
-const OCCUPIED: f32 = 4e-3;
+/// The same while every cell is probed: the field changes fast then, and empty
+/// space that counts as occupied costs most of the time.
+const EARLY_DECAY: f32 = 0.3;
+/// Opacity of one step from which a cell counts as occupied: above the least weight
+/// of a kept sample, below the 0.0104 of a field that has learnt nothing.
+const OCCUPIED: f32 = 7e-3;
 /// After the first updates one cell in so many is probed, besides every second occupied one.
 const STRIDE: usize = 8;
 
@@ -48,7 +51,11 @@ impl Occupancy {
             .map(|cell| cell as u32)
             .collect();
         // What `full` set is no observation: the first probe replaces it.
-        let decay = if phase == 0 { 0.0 } else { DECAY };
+        let decay = match (phase, all) {
+            (0, _) => 0.0,
+            (_, true) => EARLY_DECAY,
+            (_, false) => DECAY,
+        };
         self.opacity.iter_mut().for_each(|o| *o *= decay);
         for cells in probed.chunks(self.blocks.len() * LANES) {
             let used = cells.len().div_ceil(LANES);

@@ -1,12 +1,10 @@
 //! Finds the samples along rays that are worth a colour.
 
 use super::distance_map::DistanceMap;
-use super::field::{Block, DensityBlock, Field, GEOMETRY, density};
+use super::field::{Block, Field, GEOMETRY, density};
+use super::march::March;
 use super::ray::{Ray, STEP};
 use super::simd::{InstructionSet, LANES};
-
-/// Samples a ray gets in a wave; after a wave, rays that are opaque stop.
-const WAVE: usize = 4;
 
 /// What a sample must contribute.
 #[derive(Clone, Copy)]
@@ -21,14 +19,14 @@ pub(super) struct Thresholds {
 pub(super) struct Samples {
     blocks: Vec<Block>,
     kept: usize,
-    wave: Vec<DensityBlock>,
-    wave_rays: Vec<u32>,
-    alive: Vec<u32>,
+    march: March,
+    /// Light that passes the samples seen so far, a ray.
+    transmittance: Vec<f32>,
 }
 
 impl Samples {
     pub fn new() -> Samples {
-        Samples { blocks: Vec::new(), kept: 0, wave: Vec::new(), wave_rays: Vec::new(), alive: Vec::new() }
+        Samples { blocks: Vec::new(), kept: 0, march: March::new(), transmittance: Vec::new() }
     }
 
     /// How many samples are kept.
@@ -48,17 +46,21 @@ impl Samples {
         set: InstructionSet,
         field: &Field,
         map: &DistanceMap,
-        rays: &mut [Ray],
+        rays: &[Ray],
         thresholds: Thresholds,
     ) {
         self.kept = 0;
-        self.alive.clear();
-        self.alive.extend(0..rays.len() as u32);
-        while self.march(map, rays) {
-            let used = self.wave_rays.len().div_ceil(LANES);
-            density(set, field, STEP, &mut self.wave[..used]);
+        self.march.start(rays);
+        self.transmittance.clear();
+        self.transmittance.resize(rays.len(), 1.0);
+        loop {
+            let wave = self.march.next_wave(set, map);
+            if wave.rays.is_empty() {
+                break;
+            }
+            let used = wave.rays.len().div_ceil(LANES);
+            density(set, field, STEP, &mut wave.blocks[..used]);
             self.keep(rays, thresholds);
-            self.alive.retain(|&r| rays[r as usize].transmittance >= thresholds.transmittance);
         }
         let kept = self.kept;
         for (b, block) in self.blocks().iter_mut().enumerate() {
@@ -66,42 +68,18 @@ impl Samples {
         }
     }
 
-    /// Fills the wave with the next samples of the rays alive; false if there are none.
-    fn march(&mut self, map: &DistanceMap, rays: &mut [Ray]) -> bool {
-        self.wave_rays.clear();
-        let wave_rays = &mut self.wave_rays;
-        let wave = &mut self.wave;
-        self.alive.retain(|&r| {
-            let ray = &mut rays[r as usize];
-            for _ in 0..WAVE {
-                let Some(position) = ray.next_sample(map) else { return false };
-                let (block, lane) = (wave_rays.len() / LANES, wave_rays.len() % LANES);
-                if block == wave.len() {
-                    wave.push(DensityBlock::EMPTY);
-                }
-                for (axis, p) in wave[block].position.iter_mut().zip(position) {
-                    axis.0[lane] = p;
-                }
-                wave_rays.push(r);
-            }
-            true
-        });
-        !self.wave_rays.is_empty()
-    }
-
     /// Walks the wave front to back and copies the samples that weigh enough.
-    fn keep(&mut self, rays: &mut [Ray], thresholds: Thresholds) {
-        for (i, &r) in self.wave_rays.iter().enumerate() {
-            let (from, lane) = (&self.wave[i / LANES], i % LANES);
-            let ray = &mut rays[r as usize];
+    fn keep(&mut self, rays: &[Ray], thresholds: Thresholds) {
+        for i in 0..self.march.wave().rays.len() {
+            let wave = self.march.wave();
+            let (r, from, lane) = (wave.rays[i], &wave.blocks[i / LANES], i % LANES);
             let alpha = from.alpha.0[lane];
-            let weight = ray.transmittance * alpha;
-            // A ray that became opaque within this wave has its samples behind that dropped.
-            if weight < thresholds.weight || ray.transmittance < thresholds.transmittance {
-                ray.transmittance *= 1.0 - alpha;
+            let light = self.transmittance[r as usize];
+            self.transmittance[r as usize] = light * (1.0 - alpha);
+            // Samples of this wave behind the one that made the ray opaque are dropped.
+            if light < thresholds.transmittance || light * alpha < thresholds.weight {
                 continue;
             }
-            ray.transmittance *= 1.0 - alpha;
             let (block, to) = (self.kept / LANES, self.kept % LANES);
             self.kept += 1;
             if block == self.blocks.len() {
@@ -114,10 +92,15 @@ impl Samples {
             for (feature, from) in block.features.iter_mut().zip(&from.features) {
                 feature.0[to] = from.0[lane];
             }
-            for (row, harmonic) in block.middle[GEOMETRY..].iter_mut().zip(ray.harmonics) {
+            for (row, harmonic) in block.middle[GEOMETRY..].iter_mut().zip(rays[r as usize].harmonics) {
                 row.0[to] = harmonic;
             }
             block.ray[to] = r;
+        }
+        for (r, &light) in self.transmittance.iter().enumerate() {
+            if light < thresholds.transmittance {
+                self.march.stop(r as u32);
+            }
         }
     }
 }

@@ -15,11 +15,14 @@ use crate::imaging::PosedImage;
 const THRESHOLDS: Thresholds = Thresholds { weight: 3e-3, transmittance: 1e-3 };
 /// Kept samples that a group of rays should have: enough to fill blocks, few
 /// enough to stay in the second-level cache.
-const GROUP_SAMPLES: usize = 640;
-/// Steps between two updates of the occupancy grid, and the step up to which an
-/// update probes every cell.
+const GROUP_SAMPLES: usize = 1024;
+/// Fewest and most rays in a group.
+const GROUP: (usize, usize) = (24, 1024);
+/// Steps between two updates of the occupancy grid; the step up to which an update
+/// probes every cell, and the step up to which there are twice as many.
 const UPDATE_EVERY: u32 = 32;
-const PROBE_ALL_UNTIL: u32 = 160;
+const PROBE_ALL_UNTIL: u32 = 112;
+const PROBE_OFTEN_UNTIL: u32 = 256;
 
 /// How far training has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +56,8 @@ pub fn train(
     let mut trainer = Trainer::new(settings);
     for step in 0..settings.steps {
         let loss = trainer.step(&views, step);
-        if (step + 1) % UPDATE_EVERY == 0 {
+        let every = if step < PROBE_OFTEN_UNTIL { UPDATE_EVERY / 2 } else { UPDATE_EVERY };
+        if (step + 1) % every == 0 {
             let all = step < PROBE_ALL_UNTIL;
             let Trainer { occupancy, field, rng, .. } = &mut trainer;
             occupancy.update(settings.instruction_set, field, rng, all);
@@ -85,7 +89,7 @@ impl Trainer {
             adam: Adam::new(&field),
             occupancy: Occupancy::full(),
             samples: Samples::new(),
-            group: 8,
+            group: GROUP.0,
             rng,
             field,
         }
@@ -102,7 +106,7 @@ impl Trainer {
             loss += self.add_gradients(group);
             kept += self.samples.len();
             let per_ray = (self.samples.len() as f64 / self.group as f64).max(1.0);
-            self.group = ((GROUP_SAMPLES as f64 / per_ray) as usize).clamp(4, 512);
+            self.group = ((GROUP_SAMPLES as f64 / per_ray) as usize).clamp(GROUP.0, GROUP.1);
         }
         let decay = self.settings.decay(step);
         let rate = Rate {
@@ -129,7 +133,7 @@ impl Trainer {
                 None => loss += squared_error(drawn.background, drawn.target),
             }
         }
-        self.samples.collect(set, &self.field, &self.occupancy.map, &mut rays, THRESHOLDS);
+        self.samples.collect(set, &self.field, &self.occupancy.map, &rays, THRESHOLDS);
         let blocks = self.samples.blocks();
         forward(set, &self.field, STEP, blocks);
         let mut pixels = vec![Pixel::EMPTY; rays.len()];

@@ -84,7 +84,7 @@ impl Nerf {
                 places.push(pixel);
             }
             if rays.len() == GROUP || pixel + 1 == count {
-                self.shade(&mut samples, &mut rays, &mut pixels);
+                self.shade(&mut samples, &rays, &mut pixels);
                 for (&place, pixel) in places.iter().zip(&pixels) {
                     image.put_pixel(place % camera.width, place / camera.width, straight(pixel));
                 }
@@ -95,7 +95,7 @@ impl Nerf {
         image
     }
 
-    fn shade(&self, samples: &mut Samples, rays: &mut [Ray], pixels: &mut Vec<Pixel>) {
+    fn shade(&self, samples: &mut Samples, rays: &[Ray], pixels: &mut Vec<Pixel>) {
         samples.collect(self.instruction_set, &self.field, &self.map, rays, THRESHOLDS);
         let blocks = samples.blocks();
         forward(self.instruction_set, &self.field, STEP, blocks);

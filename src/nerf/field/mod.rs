@@ -12,8 +12,6 @@ mod layer;
 mod linear;
 mod scatter;
 mod spherical_harmonics;
-#[cfg(test)]
-mod tests;
 
 pub(super) use adam::{Adam, Rate};
 pub(super) use backward::backward;

@@ -1,2 +1,3 @@
+mod gradients;
 mod scene;
 mod training;
