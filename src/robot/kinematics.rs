@@ -1,8 +1,10 @@
 //! What every arm can do: forward and inverse kinematics.
 
+use std::sync::Arc;
+
 use nalgebra::Matrix6xX;
 
-use super::InverseSolutions;
+use super::{InverseSolutions, Joint, RobotError};
 use crate::geometry::Pose;
 
 /// Kinematics of a serial arm with revolute joints.
@@ -33,6 +35,9 @@ pub trait Kinematics: std::fmt::Debug + Send + Sync {
     /// The geometric Jacobian at the flange's origin, in base axes: 6 x dof,
     /// rows vx vy vz (m/s) and wx wy wz (rad/s) for 1 rad/s of each joint.
     fn jacobian(&self, joints_rad: &[f64]) -> Matrix6xX<f64>;
+
+    /// The same arm with other joint limits; one joint each, else an error.
+    fn with_joints(&self, joints: Vec<Joint>) -> Result<Arc<dyn Kinematics>, RobotError>;
 
     /// All joint states found that put the flange at `base_from_flange`.
     ///

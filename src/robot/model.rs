@@ -80,8 +80,57 @@ impl RobotModel {
         super::urdf::from_urdf(text, base_link, tip_link)
     }
 
+    /// The same arm with other limits, for cells that allow less than the maker
+    /// does; `source` says where they come from. Errors name the joint and the field.
+    pub fn with_joints(mut self, joints: Vec<Joint>, source: &str) -> Result<Self, RobotError> {
+        joints.iter().try_for_each(super::described::check_joint)?;
+        self.kinematics = self.kinematics.with_joints(joints.clone())?;
+        self.joints = joints;
+        self.sources.push(format!("Limits replaced: {source}"));
+        Ok(self)
+    }
+
     /// A joint state within the limits; see [`super::clamp_start`].
     pub fn clamp_start(&self, start_rad: &[f64]) -> Result<(Vec<f64>, Vec<super::ClampedJoint>), RobotError> {
         super::clamp_start(&self.joints, start_rad)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_taken_in_any_case_and_unknown_ones_list_the_known() {
+        assert_eq!(RobotModel::named("UR5e").unwrap().name, "ur5e");
+        let error = RobotModel::named("ur6").unwrap_err().to_string();
+        assert!(error.contains("ur6") && error.contains("ur10e") && error.contains("panda"), "{error}");
+        assert!(RobotModel::named(&"x".repeat(1_000_000)).unwrap_err().to_string().len() < 300);
+    }
+
+    #[test]
+    fn every_model_has_matching_joints_links_and_sources() {
+        for name in RobotModel::names() {
+            let robot = RobotModel::named(name).unwrap();
+            assert_eq!(robot.kinematics.dof(), robot.joints.len());
+            assert_eq!(robot.links.len(), robot.joints.len() + 1);
+            assert_eq!(robot.kinematics.link_poses(&[]).len(), robot.links.len());
+            assert!(robot.sources.len() >= 3);
+        }
+    }
+
+    #[test]
+    fn narrower_limits_bind_the_solutions() {
+        let robot = RobotModel::named("ur5e").unwrap();
+        let target = robot.kinematics.forward(&[0.3, -1.2, 1.4, -0.9, 1.1, 0.4]);
+        let mut joints = robot.joints.clone();
+        joints[2].lower_rad = 0.0;
+        let narrow = robot.with_joints(joints.clone(), "the cell's guard").unwrap();
+        let solutions = narrow.kinematics.inverse(&target, &[]).solutions;
+        assert!(solutions.len() == 4 && solutions.iter().all(|q| q[2] >= 0.0));
+        joints[1].max_speed_rad_per_s = f64::NAN;
+        let error = narrow.clone().with_joints(joints, "").unwrap_err().to_string();
+        assert!(error.contains("shoulder_lift_joint: speed limit is NaN"), "{error}");
+        assert!(narrow.with_joints(Vec::new(), "").is_err());
     }
 }

@@ -1,6 +1,7 @@
 //! Kinematics of any chain: descents from many starts.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use nalgebra::Matrix6xX;
 
@@ -78,7 +79,8 @@ impl NumericKinematics {
         let mut postures = Postures::new(&self.joints, seeds.first().map(<[f64; MAX_JOINTS]>::as_slice));
         if let Some(ur) = &self.ur {
             let branches = self.search_branches(ur, &target, seeds.first(), &mut postures);
-            if let Some(branches) = branches.filter(|_| !postures.within().is_empty() || ur.is_exact()) {
+            let complete = |b: &Branches| ur.is_exact() && !b.has_free_wrist();
+            if let Some(branches) = branches.filter(|b| !postures.within().is_empty() || complete(b)) {
                 return postures.finish(|| self.branch_miss(ur, &branches));
             }
         }
@@ -217,6 +219,10 @@ impl Kinematics for NumericKinematics {
 
     fn jacobian(&self, joints_rad: &[f64]) -> Matrix6xX<f64> {
         self.chain.jacobian(joints_rad)
+    }
+
+    fn with_joints(&self, joints: Vec<Joint>) -> Result<Arc<dyn Kinematics>, RobotError> {
+        Ok(Arc::new(Self::new(self.chain.clone(), joints)?))
     }
 
     fn inverse(&self, base_from_flange: &Pose, seeds: &[Vec<f64>]) -> InverseSolutions {

@@ -72,6 +72,12 @@ impl Branches {
         nearest
     }
 
+    /// Whether axes 4 and 6 are parallel in a branch, so that its `q6` was
+    /// free and another one may reach where this one does not.
+    pub fn has_free_wrist(&self) -> bool {
+        self.branches.iter().any(|b| b.joints_rad[4].sin().abs() < WRIST_SINGULAR)
+    }
+
     /// Why no branch reaches the target: how far the nearest one stays away.
     pub fn failure(&self) -> InverseFailure {
         let nearest = self.nearest();

@@ -1,5 +1,7 @@
 //! The UR arms' kinematics: closed form both ways.
 
+use std::sync::Arc;
+
 use nalgebra::Matrix6xX;
 
 use super::UrParameters;
@@ -12,6 +14,9 @@ use crate::robot::{Chain, DhConvention, InverseSolutions, Joint, Kinematics, MAX
 
 /// Branches that miss by less than this may be polished, metres.
 const POLISHABLE_M: f64 = 1e-6;
+
+/// Angles tried for a free `q6`, evenly over the turn.
+const FREE_WRIST_ANGLES: u32 = 36;
 
 /// Kinematics of a UR arm.
 #[derive(Debug, Clone)]
@@ -47,7 +52,27 @@ impl UrKinematics {
         if postures.is_empty() {
             self.polish(base_from_flange, &branches, &mut postures);
         }
+        if postures.is_empty() && branches.has_free_wrist() {
+            self.turn_free_wrist(base_from_flange, start, &mut postures);
+        }
         postures.finish(|| branches.failure())
+    }
+
+    /// Where `q6` is free the seed's angle may put the elbow out of range; the
+    /// first other angle that reaches, from the seed's outwards, is taken.
+    fn turn_free_wrist(&self, base_from_flange: &Pose, mut seed: [f64; 6], postures: &mut Postures<'_>) {
+        let middle = seed[5];
+        for k in 1..=FREE_WRIST_ANGLES {
+            let away = f64::from(k.div_ceil(2)) * std::f64::consts::TAU / f64::from(FREE_WRIST_ANGLES);
+            seed[5] = if k % 2 == 0 { middle - away } else { middle + away };
+            let Some(branches) = self.parameters.branches(base_from_flange, &seed) else { return };
+            branches.exact().for_each(|branch| {
+                postures.add(&branch.joints_rad);
+            });
+            if !postures.is_empty() {
+                return;
+            }
+        }
     }
 
     /// Where two singularities meet, the closed form loses up to half of the
@@ -79,6 +104,10 @@ impl Kinematics for UrKinematics {
 
     fn jacobian(&self, joints_rad: &[f64]) -> Matrix6xX<f64> {
         self.chain.jacobian(joints_rad)
+    }
+
+    fn with_joints(&self, joints: Vec<Joint>) -> Result<Arc<dyn Kinematics>, RobotError> {
+        Ok(Arc::new(Self::new(self.parameters, joints)?))
     }
 
     fn inverse(&self, base_from_flange: &Pose, seeds: &[Vec<f64>]) -> InverseSolutions {

@@ -14,7 +14,7 @@ pub(super) struct Girth {
     pub upper_arm_offset_m: f64,
     /// Offset of the forearm along the elbow's axis.
     pub forearm_offset_m: f64,
-    /// Shoulder and base housings.
+    /// The shoulder's housing.
     pub shoulder_radius_m: f64,
     /// The upper arm's tube and its end caps.
     pub upper_arm_radius_m: f64,
@@ -53,14 +53,16 @@ pub(super) fn girth(name: &str) -> Girth {
 pub(super) fn links(p: &UrParameters, g: &Girth) -> Vec<Link> {
     let link = |name: &str, shapes: Vec<LinkShape>| Link { name: name.to_owned(), shapes };
     let (upper, fore) = (g.upper_arm_offset_m, g.forearm_offset_m);
+    // The base is slimmer than the shoulder; the upper arm passes close beside it.
+    let base_radius_m = 0.85 * g.shoulder_radius_m;
     vec![
         // Its foot ends 1 cm above the mounting plane so that a table at z = 0 does not touch it.
         link(
             "base",
             vec![LinkShape::capsule(
-                [0.0, 0.0, g.shoulder_radius_m + 0.01],
+                [0.0, 0.0, base_radius_m + 0.01],
                 [0.0, 0.0, p.d1_m - 0.02],
-                g.shoulder_radius_m,
+                base_radius_m,
             )],
         ),
         // The joint's frame stays in the base's origin, so the housing sits at d1, its cap reaches to the upper arm along -y.

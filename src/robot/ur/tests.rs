@@ -171,3 +171,64 @@ fn the_nearest_solution_comes_first_and_wraps_towards_the_previous_state() {
     let answer = robot.kinematics.inverse_near(&target, &previous);
     assert!(answer.solutions[0].iter().zip(&previous).all(|(a, b)| (a - b).abs() < 1e-9));
 }
+
+#[test]
+fn a_free_last_joint_turns_until_the_elbow_reaches() {
+    // Nearly stretched, wrist axes parallel: only a few angles of the free joint leave the elbow room.
+    for name in RobotModel::names().into_iter().take(5) {
+        let robot = arm(name);
+        let target = robot.kinematics.forward(&[0.3, -1.0, 0.3, -0.5, 0.0, 2.6]);
+        let answer = robot.kinematics.inverse(&target, &[]);
+        check_all(robot.kinematics.as_ref(), &target, &answer);
+        assert!(!answer.solutions.is_empty(), "{name}: {:?}", answer.failure);
+    }
+}
+
+#[test]
+fn postures_of_everyday_work_do_not_touch_themselves() {
+    for name in RobotModel::names().into_iter().take(5) {
+        let robot = arm(name);
+        for q in [
+            [0.0; 6],
+            [0.0, -FRAC_PI_2, 0.0, -FRAC_PI_2, 0.0, 0.0],
+            [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0],
+            [1.0, -2.0, 2.2, -1.8, -FRAC_PI_2, 1.0],
+            [1.0, -0.8, 1.2, -2.4, -1.2, 0.4],
+        ] {
+            let gap = gap_between_links(&robot, &q);
+            assert!(gap > 0.005, "{name}: {gap} m at {q:?}");
+        }
+    }
+}
+
+/// The smallest distance between links that are not neighbours, by points along their capsules, metres.
+fn gap_between_links(robot: &RobotModel, q: &[f64]) -> f64 {
+    let poses = robot.kinematics.link_poses(q);
+    let balls: Vec<Vec<(crate::geometry::Point, f64)>> = robot
+        .links
+        .iter()
+        .zip(&poses)
+        .map(|(link, pose)| {
+            let along = |shape: &crate::robot::LinkShape| {
+                let crate::robot::LinkShape::Capsule { from_in_link, to_in_link, radius_m } = shape.clone()
+                else {
+                    panic!("a capsule")
+                };
+                let ball = move |i| from_in_link + (to_in_link - from_in_link) * (f64::from(i) / 40.0);
+                (0..=40).map(|i| (pose * ball(i), radius_m)).collect::<Vec<_>>()
+            };
+            link.shapes.iter().flat_map(along).collect()
+        })
+        .collect();
+    let mut least = f64::INFINITY;
+    for (i, a) in balls.iter().enumerate() {
+        for b in balls.iter().skip(i + 2) {
+            for (p, r) in a {
+                for (s, t) in b {
+                    least = least.min((p - s).norm() - r - t);
+                }
+            }
+        }
+    }
+    least
+}

@@ -166,6 +166,19 @@ fn what_is_no_urdf_is_said_so() {
     }
 }
 
+#[test]
+fn the_largest_text_is_refused_or_read_without_harm() {
+    let most = super::guard::LONGEST_BYTES - 100;
+    for piece in
+        ["<link name='a'/>", "<joint/>", "<!-- -->", "<link name='&amp;'><visual/></link>", "<x y='z'>t</x>"]
+    {
+        let text = format!("<robot name='r'>{}</robot>", piece.repeat(most / piece.len()));
+        assert!(RobotModel::from_urdf(&text, None, None).is_err());
+    }
+    let attributes = format!("<robot {}/>", (0..90_000).map(|i| format!("a{i}='1' ")).collect::<String>());
+    assert!(RobotModel::from_urdf(&attributes, None, None).is_err());
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 

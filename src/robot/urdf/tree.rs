@@ -51,10 +51,10 @@ impl<'a> Tree<'a> {
                 link_index.get(name).copied().ok_or_else(missing)
             };
             let (parent, child) = (find(&joint.parent.link, "parent")?, find(&joint.child.link, "child")?);
-            if let Some(slot) = joint_above.get_mut(child) {
-                if slot.replace(i).is_some() {
-                    return Err(element("link", &joint.child.link, "it is the child of two joints"));
-                }
+            if let Some(slot) = joint_above.get_mut(child)
+                && slot.replace(i).is_some()
+            {
+                return Err(element("link", &joint.child.link, "it is the child of two joints"));
             }
             if let Some(below) = joints_below.get_mut(parent) {
                 below.push(i);
