@@ -2,11 +2,11 @@
 //!
 //! Dynamic programming over the views in order. A label is a joint state at a
 //! view with the cheapest way to it. From a label every candidate of the next
-//! view is reached at the whole turns nearest to it within the limits; at the
-//! first view all turns start a label. Since the cost is a metric, a label
-//! that is no cheaper than going to it from another label of the same view is
-//! of no use to any later view and is dropped (this loses nothing); beyond that,
-//! the cheapest [`MOST_LABELS`] of a view go on.
+//! view is reached at the whole turns nearest to it within the limits. Since
+//! the cost is a metric, a label that is no cheaper than going to it from
+//! another label of the same view is of no use to any later view and is
+//! dropped (this loses nothing); beyond that, the cheapest labels of each
+//! candidate and of each view go on (see [`Breadth`]).
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,10 +14,22 @@ use super::candidates::{Candidate, turns};
 use super::joints::Joints;
 use super::metric::Metric;
 
-/// Labels of a view that go on to the next.
-const MOST_LABELS: usize = 64;
-/// Labels that a view can begin a motion with.
-const MOST_FIRST_LABELS: usize = 2048;
+/// How many labels are followed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Breadth {
+    /// Labels of a view that go on to the next.
+    of_view: usize,
+    /// Labels of a candidate, which differ by whole turns.
+    of_candidate: usize,
+}
+
+impl Breadth {
+    /// Enough where no joint has to unwind.
+    pub const USUAL: Breadth = Breadth { of_view: 160, of_candidate: 3 };
+    /// Follows every combination of whole turns that a first view may have.
+    pub const ALL_TURNS: Breadth = Breadth { of_view: 640, of_candidate: 64 };
+}
+
 /// Cheapest labels of a view against which the others are tested for use.
 const JUDGES: usize = 8;
 /// Cost of a radian away from the middle of a joint's range at the first view
@@ -56,34 +68,39 @@ pub(crate) struct Chooser {
     lower: Joints,
     upper: Joints,
     start: Option<Joints>,
+    breadth: Breadth,
     labels: Vec<Vec<Label>>,
 }
 
 impl Chooser {
-    pub fn new(metric: Metric, limits: (Joints, Joints), start: Option<Joints>) -> Self {
-        Self { metric, lower: limits.0, upper: limits.1, start, labels: Vec::new() }
+    pub fn new(metric: Metric, limits: (Joints, Joints), start: Option<Joints>, breadth: Breadth) -> Self {
+        Self { metric, lower: limits.0, upper: limits.1, start, breadth, labels: Vec::new() }
     }
 
-    /// The cheapest chain of labels, one a layer, if `layers` before `changed_from`
-    /// are as at the last call. `Err(k)`: no state of layer `k` can be reached.
-    pub fn choose(&mut self, layers: &[Layer], changed_from: usize) -> Result<Vec<Label>, usize> {
-        self.labels.truncate(changed_from);
-        for index in self.labels.len()..layers.len() {
+    /// The cheapest chain of labels, one for each of the first `count` layers, if `layers`
+    /// before `changed_from` are as at the last call. `Err(k)`: no state of layer `k` can be reached.
+    pub fn choose(
+        &mut self,
+        layers: &[Layer],
+        changed_from: usize,
+        count: usize,
+    ) -> Result<Vec<Label>, usize> {
+        self.labels.truncate(changed_from.min(count));
+        for index in self.labels.len()..count {
             let Some(layer) = layers.get(index) else { break };
+            // Where moves onwards collide, a label may have the only free one: none is dropped.
+            let may_drop = layers.get(index + 1).is_none_or(|l| l.priced.is_empty());
             let labels = match self.labels.last() {
                 None => self.first_labels(layer),
-                Some(previous) => {
-                    // Where moves onwards collide, a label may have the only free one: none is dropped.
-                    let all_moves_cost_the_metric = layers.get(index + 1).is_none_or(|l| l.priced.is_empty());
-                    self.next_labels(previous, layer, all_moves_cost_the_metric)
-                }
+                Some(previous) => self.next_labels(previous, layer),
             };
+            let labels = self.keep_useful(labels, may_drop, layer.candidates.len());
             if labels.is_empty() {
                 return Err(index);
             }
             self.labels.push(labels);
         }
-        let mut chain = Vec::with_capacity(layers.len());
+        let mut chain = Vec::with_capacity(count);
         let mut at = 0;
         for labels in self.labels.iter().rev() {
             let Some(label) = labels.get(at) else { break };
@@ -106,44 +123,49 @@ impl Chooser {
             }
         }
         labels.retain(|label| label.cost.is_finite());
-        labels.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        labels.truncate(MOST_FIRST_LABELS);
         labels
     }
 
-    fn next_labels(&self, previous: &[Label], layer: &Layer, may_drop: bool) -> Vec<Label> {
-        let mut labels: Vec<Label> = Vec::with_capacity(2 * MOST_LABELS);
-        let mut of_candidate: Vec<Label> = Vec::new();
+    fn next_labels(&self, previous: &[Label], layer: &Layer) -> Vec<Label> {
+        let mut labels: Vec<Label> = Vec::with_capacity(2 * layer.candidates.len());
         for (candidate, state) in layer.candidates.iter().enumerate() {
-            of_candidate.clear();
-            // Cheapest first, so that most others are useless when they come.
+            // The labels of this candidate, one for each combination of turns met.
+            let first = labels.len();
             for (parent, before) in previous.iter().enumerate() {
                 let joints = self.nearest_turns(&state.joints, &before.joints);
                 let cost = before.cost + move_cost(&self.metric, layer, &before.joints, &joints);
-                let useless = |known: &Label| known.cost + self.metric.cost(&known.joints, &joints) <= cost;
-                if cost.is_finite() && !of_candidate.iter().any(useless) {
-                    of_candidate.push(Label { joints, candidate, cost, parent });
+                if !cost.is_finite() {
+                    continue;
+                }
+                let label = Label { joints, candidate, cost, parent };
+                match labels.iter_mut().skip(first).find(|known| known.joints == joints) {
+                    Some(known) if known.cost <= cost => {}
+                    Some(known) => *known = label,
+                    None => labels.push(label),
                 }
             }
-            labels.extend_from_slice(&of_candidate);
         }
-        labels.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        self.keep_useful(labels, may_drop)
+        labels
     }
 
-    fn keep_useful(&self, labels: Vec<Label>, may_drop: bool) -> Vec<Label> {
-        let mut kept: Vec<Label> = Vec::with_capacity(MOST_LABELS);
+    fn keep_useful(&self, mut labels: Vec<Label>, may_drop: bool, candidates: usize) -> Vec<Label> {
+        labels.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let mut kept: Vec<Label> = Vec::with_capacity(self.breadth.of_view.min(labels.len()));
+        let mut of_candidate = vec![0usize; candidates];
         for label in labels {
+            let Some(count) = of_candidate.get_mut(label.candidate) else { continue };
             let useless = |judge: &Label| {
                 let same = judge.candidate == label.candidate;
                 (same || may_drop)
                     && judge.cost + self.metric.cost(&judge.joints, &label.joints) <= label.cost
             };
-            if kept.len() >= MOST_LABELS {
-                break;
+            if *count >= self.breadth.of_candidate || kept.iter().take(JUDGES).any(useless) {
+                continue;
             }
-            if !kept.iter().take(JUDGES).any(useless) {
-                kept.push(label);
+            *count += 1;
+            kept.push(label);
+            if kept.len() >= self.breadth.of_view {
+                break;
             }
         }
         kept
@@ -151,6 +173,13 @@ impl Chooser {
 
     /// `joints` turned as near to `target` as the limits allow.
     fn nearest_turns(&self, joints: &Joints, target: &Joints) -> Joints {
+        let far = joints.iter().zip(target).fold(0.0f64, |far, (q, t)| {
+            let d = (t - q).abs();
+            if d > far { d } else { far }
+        });
+        if far <= PI {
+            return *joints;
+        }
         std::array::from_fn(|j| {
             let (q, low, high) = (joints[j], self.lower[j], self.upper[j]);
             if (target[j] - q).abs() <= PI {
@@ -169,6 +198,9 @@ impl Chooser {
 }
 
 fn move_cost(metric: &Metric, layer: &Layer, from: &Joints, to: &Joints) -> f64 {
+    if layer.priced.is_empty() {
+        return metric.cost(from, to);
+    }
     let known = layer.priced.iter().find(|priced| priced.from == *from && priced.to == *to);
     known.map_or_else(|| metric.cost(from, to), |priced| priced.cost)
 }

@@ -51,7 +51,7 @@ pub fn plan_motion(request: &MotionRequest) -> Result<MotionPlan, MotionError> {
         }
     }
     let layers = ordered(request, start.as_ref(), reachable)?;
-    let Resolved { stops, dropped } = resolve(&scene, layers, start, request.seed);
+    let Resolved { stops, dropped, .. } = resolve(&scene, layers, start, request.seed);
     for (view, reason) in dropped {
         if let Some(slot) = skipped.get_mut(view) {
             *slot = Some(reason);

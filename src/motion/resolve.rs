@@ -6,7 +6,7 @@
 //! forbidden. A view that stays unreachable is left out.
 
 use super::candidates::Candidate;
-use super::choice::{Chooser, Label, Layer, PricedMove};
+use super::choice::{Breadth, Chooser, Label, Layer, PricedMove};
 use super::detour::{Search, detour};
 use super::joints::Joints;
 use super::metric::Metric;
@@ -20,6 +20,8 @@ const DETOUR_GUESS: (f64, f64) = (1.5, 0.5);
 const MOST_AVOIDED: usize = 12;
 /// Searches without success after which a view is left out.
 const MOST_FAILED_SEARCHES: usize = 3;
+/// Layers chosen beyond the leg that is looked at: a collision there has only these chosen anew.
+const LOOK_AHEAD: usize = 6;
 /// Iterations of one search for a detour.
 const SEARCH_ITERATIONS: usize = 1500;
 /// Iterations of all searches of a plan.
@@ -40,6 +42,17 @@ pub(crate) struct Stop {
 pub(crate) struct Resolved {
     pub stops: Vec<Stop>,
     pub dropped: Vec<(usize, SkipReason)>,
+    /// Cost of the chosen states, seconds.
+    cost: f64,
+}
+
+/// A view whose choice may have cost later ones.
+#[derive(Default)]
+struct Trap {
+    /// A view, and the one left out right after it.
+    suspect: Option<(usize, Layer)>,
+    /// Views that came back once.
+    restored: Vec<usize>,
 }
 
 /// The joint state the motion starts from.
@@ -79,6 +92,29 @@ enum Verdict {
 
 /// Legs through `layers` in their order.
 pub(crate) fn resolve(scene: &Scene, layers: Vec<Layer>, start: Option<StartState>, seed: u64) -> Resolved {
+    let usual = resolve_with(scene, layers.clone(), start, seed, Breadth::USUAL);
+    // A joint that unwinds may not have to, had the motion begun some turns away.
+    let unwinds = |stop: &Stop| stop.waypoints.windows(2).any(|pair| turns_half(pair));
+    if !usual.stops.iter().any(unwinds) {
+        return usual;
+    }
+    let thorough = resolve_with(scene, layers, start, seed, Breadth::ALL_TURNS);
+    let rank = |r: &Resolved| (r.dropped.len(), r.cost);
+    if rank(&thorough) < rank(&usual) { thorough } else { usual }
+}
+
+/// Whether any joint moves by half a turn or more.
+fn turns_half(pair: &[Joints]) -> bool {
+    matches!(pair, [a, b] if a.iter().zip(b).any(|(a, b)| (a - b).abs() > std::f64::consts::PI))
+}
+
+fn resolve_with(
+    scene: &Scene,
+    layers: Vec<Layer>,
+    start: Option<StartState>,
+    seed: u64,
+    breadth: Breadth,
+) -> Resolved {
     let metric = Metric::new(&scene.cell.robot.joints);
     let mut resolver = Resolver {
         scene,
@@ -91,40 +127,45 @@ pub(crate) fn resolve(scene: &Scene, layers: Vec<Layer>, start: Option<StartStat
         iterations_left: ALL_ITERATIONS,
         seed,
     };
-    let mut chooser = Chooser::new(metric, scene.limits(), start.map(|s| s.joints));
+    let mut chooser = Chooser::new(metric, scene.limits(), start.map(|s| s.joints), breadth);
     let mut resolved = Resolved::default();
-    let mut suspect: Option<(usize, Layer)> = None;
-    let mut restored: Vec<usize> = Vec::new();
+    let mut trap = Trap::default();
     let mut changed_from = 0;
+    let mut looked_at = 0;
     'choose: while !resolver.layers.is_empty() {
-        let chain = match chooser.choose(&resolver.layers, changed_from) {
+        let total = resolver.layers.len();
+        let chosen = (looked_at + LOOK_AHEAD).min(total);
+        let chain = match chooser.choose(&resolver.layers, changed_from, chosen) {
             Ok(chain) => chain,
             Err(index) => {
                 changed_from = index.saturating_sub(2);
-                resolver.drop_layer(index, &mut suspect, &mut restored, &mut resolved);
+                resolver.drop_layer(index, &mut trap, &mut resolved);
                 continue;
             }
         };
+        changed_from = usize::MAX;
+        // The end of the chain is not settled before later views are chosen.
+        let settled = if chosen == total { total } else { looked_at + 1 };
         resolved.stops.clear();
-        for index in 0..chain.len() {
+        for index in 0..settled {
             match resolver.look_at(&chain, index) {
-                Verdict::Passes(waypoints) => {
-                    if let Some(stop) = resolver.stop(&chain, index, waypoints) {
-                        resolved.stops.push(stop);
-                    }
-                }
+                Verdict::Passes(waypoints) => resolved.stops.extend(resolver.stop(&chain, index, waypoints)),
                 Verdict::Priced => {
-                    changed_from = index.saturating_sub(2);
+                    changed_from = index.saturating_sub(1);
                     continue 'choose;
                 }
                 Verdict::NoWay => {
                     changed_from = index.saturating_sub(2);
-                    resolver.drop_layer(index, &mut suspect, &mut restored, &mut resolved);
+                    resolver.drop_layer(index, &mut trap, &mut resolved);
                     continue 'choose;
                 }
             }
         }
-        break;
+        resolved.cost = chain.last().map_or(0.0, |label| label.cost);
+        if settled == total {
+            break;
+        }
+        looked_at = settled;
     }
     if resolver.layers.is_empty() {
         resolved.stops.clear();
@@ -212,17 +253,12 @@ impl Resolver<'_> {
     ///
     /// If the view before had already cost another one, it is itself the
     /// trap: it goes instead, and the other one comes back (once).
-    fn drop_layer(
-        &mut self,
-        index: usize,
-        suspect: &mut Option<(usize, Layer)>,
-        restored: &mut Vec<usize>,
-        resolved: &mut Resolved,
-    ) {
+    fn drop_layer(&mut self, index: usize, trap: &mut Trap, resolved: &mut Resolved) {
         let Some(before) = index.checked_sub(1).and_then(|i| self.layers.get(i)).map(|l| l.view) else {
             self.leave_out(index, LegStart::Start, resolved);
             return;
         };
+        let Trap { suspect, restored } = trap;
         let trapped = suspect.take_if(|(view, lost)| *view == before && !restored.contains(&lost.view));
         if let Some((_, lost)) = trapped {
             restored.push(lost.view);
