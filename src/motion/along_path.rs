@@ -10,9 +10,9 @@ use super::joints::Joints;
 use super::rounded::Piece;
 
 /// Longest cell of the grid, radians in joint space.
-const CELL_RAD: f64 = 0.04;
+const CELL_RAD: f64 = 0.02;
 /// Cells of a piece: at least, at most.
-const CELLS: (usize, usize) = (8, 120);
+const CELLS: (usize, usize) = (16, 160);
 /// Share of the limits that is used: what is left covers rounding.
 const USED_SHARE: f64 = 0.9995;
 
@@ -67,7 +67,6 @@ impl AlongPath {
         }
         drive(&pieces, &mut cells, &speed, &acceleration);
         let mut timed = Self { pieces, cells, begins_s: Vec::new(), duration_s: 0.0 };
-        timed.slow_down_where_needed(max_speed, max_acceleration);
         let mut now = 0.0;
         timed.begins_s = timed
             .cells
@@ -105,54 +104,31 @@ impl AlongPath {
         let acceleration = std::array::from_fn(|j| first[j] * cell.acceleration + second[j] * speed * speed);
         (q, velocity, acceleration)
     }
-
-    /// Speeds are bounded at grid points only; what exceeds a limit between them slows the whole path.
-    fn slow_down_where_needed(&mut self, max_speed: &Joints, max_acceleration: &Joints) {
-        let mut factor = 1.0f64;
-        for cell in &self.cells {
-            for i in 0..=4 {
-                let (_, v, a) = self.in_cell(cell, cell.duration_s * f64::from(i) / 4.0);
-                for j in 0..v.len() {
-                    if max_speed[j] > 0.0 && max_acceleration[j] > 0.0 {
-                        factor = factor.max(v[j].abs() / (max_speed[j] * USED_SHARE.sqrt()));
-                        factor = factor.max((a[j].abs() / (max_acceleration[j] * USED_SHARE.sqrt())).sqrt());
-                    }
-                }
-            }
-        }
-        for cell in &mut self.cells {
-            cell.speed /= factor;
-            cell.acceleration /= factor * factor;
-            cell.duration_s *= factor;
-        }
-    }
 }
 
 /// Both passes: sets speed, acceleration and duration of every cell.
 fn drive(pieces: &[Piece], cells: &mut [Cell], max_speed: &Joints, max_acceleration: &Joints) {
-    let bounds: Vec<(Bounds, f64, f64)> = cells
+    let bounds: Vec<(Bounds, f64)> = cells
         .iter()
         .filter_map(|cell| {
             let piece = pieces.get(cell.piece)?;
             let (start, end) = (piece.at(cell.s0).1, piece.at(cell.s0 + cell.ds).1);
-            let fastest = |first: &Joints| {
-                let ratios =
-                    first.iter().zip(max_speed).filter(|(d, _)| d.abs() > 1e-12).map(|(d, v)| v / d.abs());
-                ratios.fold(f64::INFINITY, f64::min).powi(2)
-            };
-            let (x_start, x_end) = (fastest(&start), fastest(&end));
-            Some((Bounds { piece, start, end, ds: cell.ds, max_acceleration }, x_start, x_end))
+            // Derivative and squared speed are linear over the cell: bounding both ends by the
+            // larger derivative bounds everything between.
+            let steepest = start.iter().zip(&end).map(|(a, b)| a.abs().max(b.abs()));
+            let ratios = steepest.zip(max_speed).filter(|(d, _)| *d > 1e-12).map(|(d, v)| v / d);
+            let fastest = ratios.fold(f64::INFINITY, f64::min).powi(2);
+            Some((Bounds { piece, start, end, ds: cell.ds, max_acceleration }, fastest))
         })
         .collect();
     // largest[i]: largest squared speed at the beginning of cell i from which the end can be reached at rest.
     let mut largest = vec![0.0f64; bounds.len() + 1];
-    for (i, (bound, x_start, x_end)) in bounds.iter().enumerate().rev() {
-        let next = largest[i + 1].min(*x_end);
-        largest[i + 1] = next;
-        largest[i] = bound.largest_start(x_start.min(1e9), next);
+    for (i, (bound, fastest)) in bounds.iter().enumerate().rev() {
+        largest[i + 1] = largest[i + 1].min(*fastest);
+        largest[i] = bound.largest_start(fastest.min(1e9), largest[i + 1]);
     }
     let mut x = 0.0f64;
-    for (i, (cell, (bound, _, _))) in cells.iter_mut().zip(&bounds).enumerate() {
+    for (i, (cell, (bound, _))) in cells.iter_mut().zip(&bounds).enumerate() {
         let next = largest[i + 1];
         let (least, most) = bound.accelerations(x, next);
         let u = most.max(least);
@@ -202,5 +178,64 @@ impl Bounds<'_> {
             if allowed(middle) { low = middle } else { high = middle }
         }
         low
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::joints::{difference, lerp, norm};
+    use crate::motion::trapezoid::Trapezoid;
+    use proptest::prelude::*;
+
+    /// The path through `waypoints` with every corner rounded over `share` of its shorter side.
+    fn pieces(waypoints: &[Joints], share: f64) -> Vec<Piece> {
+        let mut at = waypoints[0];
+        let mut pieces = Vec::new();
+        for triple in waypoints.windows(3) {
+            let (length_in, length_out) =
+                (norm(&difference(&triple[0], &triple[1])), norm(&difference(&triple[1], &triple[2])));
+            let reach = share * length_in.min(length_out);
+            let a = lerp(&triple[1], &triple[0], reach / length_in);
+            let b = lerp(&triple[1], &triple[2], reach / length_out);
+            pieces.extend(Piece::line(&at, &a));
+            pieces.push(Piece::corner(&a, &triple[1], &b, reach));
+            at = b;
+        }
+        pieces.extend(Piece::line(&at, &waypoints[waypoints.len() - 1]));
+        pieces
+    }
+
+    fn waypoint() -> impl Strategy<Value = Joints> {
+        proptest::array::uniform6(-1.5..1.5f64).prop_map(|q| crate::motion::joints::joints_from(&q))
+    }
+
+    proptest! {
+        #[test]
+        fn a_rounded_path_keeps_its_limits_and_beats_stopping_at_corners(
+            waypoints in proptest::collection::vec(waypoint(), 3..6), share in 0.05..0.45f64, v in 0.5..4.0f64, a in 1.0..15.0f64,
+        ) {
+            let (speed, acceleration) = ([v; 8], [a; 8]);
+            let path = AlongPath::new(pieces(&waypoints, share), &speed, &acceleration);
+            let n = 2000;
+            let h = path.duration_s() / f64::from(n);
+            let mut last = path.at(0.0);
+            prop_assert!(norm(&difference(&last.0, &waypoints[0])) < 1e-9 && norm(&last.1) < 1e-9);
+            for i in 1..=n {
+                let now = path.at(h * f64::from(i));
+                for j in 0..6 {
+                    prop_assert!((now.0[j] - last.0[j]).abs() <= v * h * (1.0 + 1e-6) + 1e-12);
+                    prop_assert!((now.1[j] - last.1[j]).abs() <= a * h * (1.0 + 1e-6) + 1e-9);
+                }
+                last = now;
+            }
+            let end = waypoints[waypoints.len() - 1];
+            prop_assert!(norm(&difference(&last.0, &end)) < 1e-6 && norm(&last.1) < 1e-3);
+            let stopping: f64 = waypoints
+                .windows(2)
+                .map(|w| Trapezoid::new(&difference(&w[0], &w[1]), &speed, &acceleration).duration_s())
+                .sum();
+            prop_assert!(path.duration_s() < stopping * 1.01, "{} {}", path.duration_s(), stopping);
+        }
     }
 }

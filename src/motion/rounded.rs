@@ -34,7 +34,8 @@ impl Piece {
         (position, first, self.second)
     }
 
-    fn line(from: &Joints, to: &Joints) -> Option<Self> {
+    /// The straight piece; `None` for one without length.
+    pub fn line(from: &Joints, to: &Joints) -> Option<Self> {
         let step = difference(from, to);
         let length = norm(&step);
         (length > 1e-9).then(|| Self {
@@ -46,7 +47,7 @@ impl Piece {
     }
 
     /// The parabola from `a` towards `corner` and on to `b`; both at distance `reach` from the corner.
-    fn corner(a: &Joints, corner: &Joints, b: &Joints, reach: f64) -> Self {
+    pub fn corner(a: &Joints, corner: &Joints, b: &Joints, reach: f64) -> Self {
         let first = difference(a, corner).map(|d| d / reach);
         let last = difference(corner, b).map(|d| d / reach);
         let length = 2.0 * reach;

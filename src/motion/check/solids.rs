@@ -24,7 +24,12 @@ struct Solid {
     link: usize,
     link_from_solid: Pose3,
     shape: SharedShape,
+    /// A sphere around it in its own frame; infinite for the table.
+    around: (Vec3, f64),
 }
+
+/// Distance beyond which spheres around solids are told apart instead of the solids, metres.
+const FAR_M: f64 = 0.1;
 
 /// All solids of a cell and the pairs that must stay apart.
 pub(super) struct Solids<'a> {
@@ -51,20 +56,20 @@ impl<'a> Solids<'a> {
         let mut fixed: Vec<Solid> =
             cell.keep_out.iter().map(|k| solid(&k.name, 0, &identity, &k.shape_in_base)).collect();
         if let Some(object) = &cell.object {
-            fixed.push(Solid {
-                name: "object".into(),
-                link: 0,
-                link_from_solid: Pose3::from_translation(vec3(&object.center_in_base.coords)),
-                shape: SharedShape::new(Ball::new(object.radius_m)),
-            });
+            fixed.push(Solid::new(
+                "object",
+                0,
+                Pose3::from_translation(vec3(&object.center_in_base.coords)),
+                SharedShape::new(Ball::new(object.radius_m)),
+            ));
         }
         if let Some(z) = cell.table_z_m {
-            fixed.push(Solid {
-                name: TABLE.into(),
-                link: 0,
-                link_from_solid: Pose3::translation(0.0, 0.0, z),
-                shape: SharedShape::new(HalfSpace::new(Vec3::new(0.0, 0.0, 1.0))),
-            });
+            fixed.push(Solid::new(
+                TABLE,
+                0,
+                Pose3::translation(0.0, 0.0, z),
+                SharedShape::new(HalfSpace::new(Vec3::new(0.0, 0.0, 1.0))),
+            ));
         }
         let mut solids = Self { cell, moving, fixed, self_pairs: Vec::new() };
         solids.self_pairs = solids.pairs_that_can_part();
@@ -196,6 +201,11 @@ fn between(from: &TrajectoryPoint, to: &TrajectoryPoint, share: f64) -> Vec<f64>
 fn distance(a: &Solid, b: &Solid, poses: &[Pose3]) -> f64 {
     let place = |s: &Solid| poses.get(s.link).copied().unwrap_or_else(Pose3::identity) * s.link_from_solid;
     let (pa, pb) = (place(a), place(b));
+    let between_spheres =
+        (pa.transform_point(a.around.0) - pb.transform_point(b.around.0)).length() - a.around.1 - b.around.1;
+    if between_spheres > FAR_M {
+        return between_spheres;
+    }
     match query::distance(&pa, a.shape.as_ref(), &pb, b.shape.as_ref()) {
         Ok(found) if found.distance > 0.0 => found.distance,
         _ => query::contact(&pa, a.shape.as_ref(), &pb, b.shape.as_ref(), 0.0)
@@ -224,11 +234,14 @@ fn solid(name: &str, link: usize, link_from_carrier: &Pose, shape: &LinkShape) -
             (pose3(link_from_cylinder) * upright, SharedShape::new(Cylinder::new(*half_length_m, *radius_m)))
         }
     };
-    Solid {
-        name: name.to_owned(),
-        link,
-        link_from_solid: pose3(link_from_carrier) * carrier_from_solid,
-        shape,
+    Solid::new(name, link, pose3(link_from_carrier) * carrier_from_solid, shape)
+}
+
+impl Solid {
+    fn new(name: &str, link: usize, link_from_solid: Pose3, shape: SharedShape) -> Self {
+        let sphere = shape.compute_local_bounding_sphere();
+        let around = (sphere.center, sphere.radius);
+        Self { name: name.to_owned(), link, link_from_solid, shape, around }
     }
 }
 

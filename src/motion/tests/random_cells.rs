@@ -35,7 +35,7 @@ fn random_cell(rng: &mut ChaCha8Rng) -> (Cell, Vec<Pose>, bool) {
 fn every_plan_of_random_cells_passes_the_independent_checker() {
     let mut rng = ChaCha8Rng::seed_from_u64(5);
     let (mut planned, mut asked, mut detours) = (0, 0, 0);
-    for _ in 0..60 {
+    for _ in 0..120 {
         let (cell, views, free_roll) = random_cell(&mut rng);
         let order = by_camera_path(&cell, &views);
         let mut request = MotionRequest::new(&cell, &views);

@@ -212,3 +212,44 @@ fn the_checker_sees_a_spoilt_plan() {
     let request = MotionRequest { cell: &blocked, ..request };
     assert!(check(&request, &good).iter().any(|v| matches!(v, Violation::TooNear { .. })));
 }
+
+#[test]
+fn a_seven_joint_arm_with_numeric_kinematics_is_planned_as_well() {
+    let cell = cell("panda", 0.45, 0.0);
+    let views = views(&cell, 5, 0.3);
+    let mut request = MotionRequest::new(&cell, &views);
+    let home = [0.0, -0.6, 0.0, -2.2, 0.0, 1.6, 0.8];
+    request.start = Some(&home);
+    let plan = plan(&request);
+    assert!(plan.planned_count() >= 2, "{:?}", plan.views);
+    assert_eq!(plan.joint_names.len(), 7);
+}
+
+#[test]
+fn a_view_behind_a_wall_that_the_arm_cannot_pass_has_no_path() {
+    let mut cell = cell("ur5e", 0.45, 0.0);
+    cell.object = None;
+    // Only the first joint may turn, and not all the way: the stretched arm has to sweep past the wall.
+    let at = |pan: f64| [pan, -1.2, 1.8, -2.1, -1.57, 0.0];
+    let flange = |pan: f64| cell.robot.kinematics.forward(&at(pan));
+    let views: Vec<Pose> = [-0.6, -0.65, 0.6, -0.7].map(|pan| flange(pan) * cell.flange_from_camera).to_vec();
+    let middle = flange(0.0).translation.vector;
+    let azimuth = middle.y.atan2(middle.x);
+    for (joint, q) in cell.robot.joints.iter_mut().zip(at(0.0)) {
+        (joint.lower_rad, joint.upper_rad) = (q - 0.02, q + 0.02);
+    }
+    (cell.robot.joints[0].lower_rad, cell.robot.joints[0].upper_rad) = (-1.0, 1.0);
+    let out = crate::geometry::Vector::new(azimuth.cos(), azimuth.sin(), 0.5);
+    cell.keep_out.push(KeepOut {
+        name: "wall".into(),
+        shape_in_base: LinkShape::Cuboid {
+            link_from_box: Pose::new(out * 0.8, crate::geometry::Vector::z() * azimuth),
+            half_extents_m: crate::geometry::Vector::new(0.5, 0.01, 0.5),
+        },
+    });
+    let plan = plan(&MotionRequest::new(&cell, &views));
+    assert_eq!(plan.order, vec![0, 1, 3], "{:?}", plan.views);
+    let SkipReason::NoPath { from, attempts } = reason(&plan, 2) else { panic!("{:?}", plan.views) };
+    assert_eq!(*from, LegStart::View(1));
+    assert!(*attempts > 0);
+}
