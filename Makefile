@@ -41,7 +41,7 @@ system-packages:
 	  echo "installing:$$missing"; \
 	  $(SUDO) apt-get update -q && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing; \
 	fi
-	@command -v cargo >/dev/null || { echo "Rust is missing: install cargo 1.88 or newer first" >&2; exit 1; }
+	@command -v cargo >/dev/null || { echo "Rust is missing: install cargo 1.89 or newer first" >&2; exit 1; }
 
 test: .venv/bin/pytest
 .venv/bin/pytest: models/training/requirements-test.txt | system-packages

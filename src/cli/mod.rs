@@ -4,6 +4,7 @@ mod camera_flag;
 mod health;
 mod inputs;
 mod label;
+mod nerf;
 mod objects;
 mod order;
 mod predict;
@@ -34,6 +35,8 @@ enum Command {
     Inputs(inputs::Args),
     /// Find the shortest path through points around an object.
     Order(order::Args),
+    /// Train a NeRF on posed images and measure it.
+    Nerf(nerf::Args),
     /// Predict how many views an object needs.
     Predict(predict::Args),
     /// List the usable objects in folders and furniture libraries.
@@ -57,6 +60,7 @@ pub fn run() -> ExitCode {
         Command::Health(args) => health::run(&args),
         Command::Inputs(args) => inputs::run(&args),
         Command::Order(args) => order::run(&args),
+        Command::Nerf(args) => nerf::run(&args),
         Command::Predict(args) => predict::run(&args),
         Command::Objects(args) => objects::run(&args),
         Command::Render(args) => render::run(&args),

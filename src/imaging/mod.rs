@@ -6,6 +6,7 @@ mod decode;
 mod posed_image;
 mod psnr;
 mod ssim;
+pub mod transforms;
 
 pub use camera::{Camera, CameraError, Distortion};
 pub use composite::composite;

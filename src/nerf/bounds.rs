@@ -2,6 +2,7 @@
 
 use super::NerfError;
 use crate::geometry::{Point, Pose, Vector};
+use crate::imaging::transforms::SceneCube;
 
 /// An axis-aligned cube in the world frame. What lies outside is not seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,6 +11,12 @@ pub struct Bounds {
     pub center: Point,
     /// Half the edge, metres.
     pub half_extent_m: f64,
+}
+
+impl From<SceneCube> for Bounds {
+    fn from(cube: SceneCube) -> Bounds {
+        Bounds { center: cube.center, half_extent_m: cube.half_extent_m }
+    }
 }
 
 impl Bounds {
