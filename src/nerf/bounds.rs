@@ -28,7 +28,7 @@ impl Bounds {
         for (field, value) in
             [("center.x", self.center.x), ("center.y", self.center.y), ("center.z", self.center.z)]
         {
-            if !(value.abs() < 1e6) {
+            if !value.is_finite() || value.abs() >= 1e6 {
                 return Err(NerfError::Bounds { field, value, bound: "finite and less than 1e6 in size" });
             }
         }

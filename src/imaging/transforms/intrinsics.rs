@@ -35,10 +35,10 @@ pub(super) fn camera_of(
     file: &Intrinsics,
     (width, height): (u32, u32),
 ) -> Result<Camera, (&'static str, String)> {
-    if let Some(model) = frame.camera_model.as_ref().or(file.camera_model.as_ref()) {
-        if !MODELS.contains(&model.as_str()) {
-            return Err(("camera_model", format!("is {model}, must be one of {}", MODELS.join(", "))));
-        }
+    if let Some(model) = frame.camera_model.as_ref().or(file.camera_model.as_ref())
+        && !MODELS.contains(&model.as_str())
+    {
+        return Err(("camera_model", format!("is {model}, must be one of {}", MODELS.join(", "))));
     }
     for (field, stated, size) in
         [("w", frame.w.or(file.w), f64::from(width)), ("h", frame.h.or(file.h), f64::from(height))]

@@ -118,7 +118,7 @@ fn cube_of(content: &Transforms) -> Result<SceneCube, (&'static str, String)> {
     if !(1e-3..=1e3).contains(&boxes) {
         return Err(("aabb_scale", format!("is {boxes}, must be 0.001 to 1000")));
     }
-    if let Some(bad) = offset.iter().find(|o| !(o.abs() < 1e6)) {
+    if let Some(bad) = offset.iter().find(|o| !o.is_finite() || o.abs() >= 1e6) {
         return Err(("offset", format!("has {bad}, must be finite and less than 1e6 in size")));
     }
     let center = Point::from(offset.map(|o| (0.5 - o) / scale));
