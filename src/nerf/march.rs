@@ -98,7 +98,9 @@ kernel! {
     fn march(packets: &mut [Packet], map: &DistanceMap, wave: &mut Wave) = march_body
 }
 
-// Plain loops over sixteen lanes, which compilers turn into vectors.
+// Plain loops over sixteen lanes, which compilers turn into vectors. Unlike `clamp`,
+// `max` then `min` turns NaN into a number, as the casts need.
+#[allow(clippy::manual_clamp)]
 #[inline(always)]
 fn march_body<S: Simd, const T: usize>(_: S, packets: &mut [Packet], map: &DistanceMap, wave: &mut Wave) {
     let cells = map.cells();

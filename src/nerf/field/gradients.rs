@@ -38,10 +38,7 @@ impl Gradients {
 /// Moves the partial sums to one gradient a weight and zeroes them.
 pub(super) fn take_sums(sums: &mut [Line], gradient: &mut [f32]) {
     for (sum, g) in sums.iter_mut().zip(gradient) {
-        let mut eight = [0.0; 8];
-        for i in 0..8 {
-            eight[i] = sum.0[i] + sum.0[i + 8];
-        }
+        let eight: [f32; 8] = std::array::from_fn(|i| sum.0[i] + sum.0[i + 8]);
         *g =
             ((eight[0] + eight[4]) + (eight[1] + eight[5])) + ((eight[2] + eight[6]) + (eight[3] + eight[7]));
         *sum = Line::ZERO;

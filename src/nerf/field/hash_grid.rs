@@ -69,6 +69,8 @@ impl Corners {
 
     /// Finds the corners of the cells that hold `position`. Positions are clamped
     /// to the cube (NaN to 0), so every entry and its successor lie in `level`.
+    // Unlike `clamp`, `max` then `min` turns NaN into a number, as the casts need.
+    #[allow(clippy::manual_clamp)]
     #[inline(always)]
     pub fn find(&mut self, level: &Level, position: &[Lanes; 3]) {
         let cells = level.cells as f32;

@@ -158,8 +158,8 @@ fn gradients_of_compositing_agree_with_finite_differences() {
         for i in 0..5 {
             block.optical_depth.0[i] = 0.2 * (2.0 * raw[i]).exp();
             block.alpha.0[i] = 1.0 - (-block.optical_depth.0[i]).exp();
-            for c in 0..3 {
-                block.colour[c].0[i] = 1.0 / (1.0 + (-before[i][c]).exp());
+            for (channel, x) in block.colour.iter_mut().zip(before[i]) {
+                channel.0[i] = 1.0 / (1.0 + (-x).exp());
             }
         }
         let mut pixel = [Pixel::EMPTY];
