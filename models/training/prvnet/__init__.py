@@ -1,5 +1,10 @@
 """PRVNet: from one to five photos of an object to the number of views its reconstruction needs."""
 
+import os
+
+# Threads that wait without spinning: on a busy machine spinning makes every step many times slower.
+os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+
 # Version of the model file's input, output and metadata; the service reads exactly this one.
 FORMAT = "1"
 

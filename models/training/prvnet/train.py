@@ -160,6 +160,7 @@ def train(args) -> dict:
     if args.freeze:
         network.encoder.requires_grad_(False)
         source = Bank(args.bank, args.inputs, rows, network, args.variants, device)
+        torch.set_num_threads(1)  # the heads' matrices are too small to share
     else:
         source = Photos(args.inputs, rows, args.size)
     groups = [{"params": network.heads.parameters(), "lr": args.lr}]
