@@ -1,7 +1,8 @@
 //! `prv predict`: photos on disk to a view count.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use image::RgbaImage;
 use prv::imaging::{DEFAULT_MAX_PIXELS, decode_image};
 use prv::predict::{MAX_IMAGES, PhotoInput, PredictError, Predictor, model_bytes};
 
@@ -22,6 +23,9 @@ pub struct Args {
     /// Distance from the camera to the object's centre, metres.
     #[arg(long, env = "PRV_DISTANCE", default_value_t = 0.3, allow_hyphen_values = true)]
     distance: f64,
+    /// The images are crops of `prv inputs` for this model: camera and distance are not needed.
+    #[arg(long, env = "PRV_CROPS")]
+    crops: bool,
     /// Another model than the one in the executable.
     #[arg(long, env = "PRV_MODEL")]
     model: Option<PathBuf>,
@@ -40,8 +44,14 @@ pub fn run(args: &Args) -> CliResult {
         threads => threads,
     };
     let predictor = Predictor::load(&model_bytes(args.model.as_deref())?, threads, 1)?;
-    let photos = args.images.iter().map(|path| photo(path, args)).collect::<Result<Vec<_>, _>>()?;
-    let prediction = predictor.predict(&photos).map_err(|error| name_photo(error, &args.images))?;
+    let images = args.images.iter().map(|path| decode(path)).collect::<Result<Vec<_>, _>>()?;
+    let prediction = if args.crops {
+        predictor.predict_crops(&images)
+    } else {
+        let photos: Vec<_> = images.into_iter().map(|image| photo(image, args)).collect();
+        predictor.predict(&photos)
+    };
+    let prediction = prediction.map_err(|error| name_photo(error, &args.images))?;
     let info = predictor.info();
     if args.json {
         let answer = serde_json::json!({
@@ -64,12 +74,14 @@ pub fn run(args: &Args) -> CliResult {
     Ok(())
 }
 
-fn photo(path: &PathBuf, args: &Args) -> Result<PhotoInput, String> {
+fn decode(path: &Path) -> Result<RgbaImage, String> {
     let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
-    let image =
-        decode_image(&bytes, DEFAULT_MAX_PIXELS).map_err(|error| format!("{}: {error}", path.display()))?;
+    decode_image(&bytes, DEFAULT_MAX_PIXELS).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+fn photo(image: RgbaImage, args: &Args) -> PhotoInput {
     let camera = args.camera.for_size(image.width(), image.height());
-    Ok(PhotoInput::looking_at_center(image, camera, args.distance))
+    PhotoInput::looking_at_center(image, camera, args.distance)
 }
 
 /// On the command line a photo is known by its file, not by its number.
