@@ -94,7 +94,7 @@ enum Verdict {
 pub(crate) fn resolve(scene: &Scene, layers: Vec<Layer>, start: Option<StartState>, seed: u64) -> Resolved {
     let usual = resolve_with(scene, layers.clone(), start, seed, Breadth::USUAL);
     // A joint that unwinds may not have to, had the motion begun some turns away.
-    let unwinds = |stop: &Stop| stop.waypoints.windows(2).any(|pair| turns_half(pair));
+    let unwinds = |stop: &Stop| stop.waypoints.windows(2).any(turns_half);
     if !usual.stops.iter().any(unwinds) {
         return usual;
     }

@@ -101,7 +101,7 @@ fn rounding(
     let (length_in, length_out) = (norm(&inward), norm(&outward));
     let cosine = inward.iter().zip(&outward).map(|(a, b)| a * b).sum::<f64>() / (length_in * length_out);
     // A NaN from a repeated waypoint is no turn to round.
-    if !(cosine > REVERSAL) {
+    if cosine.is_nan() || cosine <= REVERSAL {
         return None;
     }
     let mut reach = LARGEST_SHARE * length_in.min(length_out);
