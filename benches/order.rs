@@ -19,7 +19,9 @@ fn main() {
     let obstacle = Obstacle { center: space.center_in_base, radius_m: 0.10625, table_z_m: Some(0.0) };
     let directions = tammes(58, space.band).map(|set| set.directions).unwrap_or_default();
     let around: Vec<Point> = directions.iter().map(|d| space.position(d)).collect();
-    if let (Some(&a), Some(&b)) = (around.get(40), around.last()) {
+    // From the last view, on the rim, to the one farthest from it: around the ball.
+    let across = |a: Point| around.iter().copied().max_by(|p, q| (p - a).norm().total_cmp(&(q - a).norm()));
+    if let Some((a, b)) = around.last().and_then(|&a| Some((a, across(a)?))) {
         let seconds = median_time(21, 1000, || {
             black_box(LocalPath::between(black_box(a), black_box(b), &obstacle).length_m());
         });

@@ -5,7 +5,7 @@ use std::time::Duration;
 use proptest::prelude::*;
 
 use super::*;
-use crate::geometry::Point;
+use crate::geometry::{Point, Vector};
 
 /// The optimum by trying every subset (Held and Karp's dynamic programme).
 fn by_subsets(matrix: &CostMatrix, start: usize) -> f64 {
@@ -160,4 +160,22 @@ fn bad_problems_are_refused_with_their_numbers() {
         CostMatrix::from_rows(2, vec![0.0, -1.0, 1.0, 0.0]),
         Err(OrderError::Cost { from: 0, to: 1, .. })
     ));
+}
+
+#[test]
+fn random_views_whose_combs_once_swung_for_ever_are_solved() {
+    use rand::Rng;
+    use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let points: Vec<Point> = (0..100)
+        .map(|_| {
+            let z: f64 = rng.random_range(5f64.to_radians().sin()..1.0);
+            let azimuth: f64 = rng.random_range(0.0..std::f64::consts::TAU);
+            let horizontal = (1.0 - z * z).sqrt();
+            let direction = Vector::new(horizontal * azimuth.cos(), horizontal * azimuth.sin(), z);
+            Point::new(0.5, 0.0, 0.1) + direction * 0.3
+        })
+        .collect();
+    let ball = Obstacle { center: Point::new(0.5, 0.0, 0.1), radius_m: 0.10625, table_z_m: Some(0.0) };
+    assert!(order_points(&points, 0, &ball, BUDGET).unwrap().optimal);
 }

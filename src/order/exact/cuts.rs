@@ -8,6 +8,8 @@ const VIOLATION: f64 = 1e-6;
 const COMB_VIOLATION: f64 = 1e-3;
 /// An edge with at least this value counts as used.
 const WHOLE: f64 = 1.0 - 1e-9;
+/// Most times that touching teeth may change a handle; it could swing to and fro for ever.
+const ADJUSTMENTS: usize = 10;
 
 /// `sum over sets of x(edges inside the set) <= right`: with one set a subtour cut, with a handle
 /// and teeth a comb.
@@ -162,7 +164,7 @@ fn combs(nodes: usize, edges: &[Edge], x: &[f64], support: &[(usize, usize, f64)
 /// it, each with a value above one half where possible.
 fn comb_with_handle(mut handle: Vec<bool>, support: &[(usize, usize, f64)]) -> Option<Cut> {
     let nodes = handle.len();
-    loop {
+    for _ in 0..ADJUSTMENTS {
         let mut leaving: Vec<(usize, usize, f64)> =
             support.iter().copied().filter(|&(a, b, _)| handle[a] != handle[b]).collect();
         leaving.sort_by(|p, q| q.2.total_cmp(&p.2).then((p.0, p.1).cmp(&(q.0, q.1))));
@@ -210,4 +212,5 @@ fn comb_with_handle(mut handle: Vec<bool>, support: &[(usize, usize, f64)]) -> O
             }
         }
     }
+    None
 }
