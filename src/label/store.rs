@@ -58,8 +58,6 @@ pub struct LabelRecord {
     pub rms_db: f64,
     /// Mean PSNR over the test views for each of [`view_counts`], dB.
     pub psnr_db: Vec<f64>,
-    /// Mean SSIM over the test views for each of [`view_counts`].
-    pub ssim: Vec<f64>,
     /// Thread CPU seconds spent, rendering included.
     pub cpu_s: f64,
 }
@@ -110,7 +108,6 @@ pub fn header() -> Vec<String> {
         .iter()
         .map(ToString::to_string)
         .chain(counts.iter().map(|v| format!("psnr_{v}")))
-        .chain(counts.iter().map(|v| format!("ssim_{v}")))
         .chain(["cpu_s".to_string()])
         .collect()
 }
@@ -126,7 +123,6 @@ fn row(record: &LabelRecord) -> Vec<String> {
         ])
         .chain([curve.y0, curve.amplitude, curve.x_c, curve.width, record.rms_db].map(|x| format!("{x:.5}")))
         .chain(record.psnr_db.iter().map(|x| format!("{x:.4}")))
-        .chain(record.ssim.iter().map(|x| format!("{x:.5}")))
         .chain([format!("{:.2}", record.cpu_s)])
         .collect()
 }
@@ -224,7 +220,6 @@ mod tests {
             curve: LogNormalCurve { y0: 12.0, amplitude: 20.0, x_c: 6.0, width: 0.9 },
             rms_db: 0.2,
             psnr_db: vec![25.0; view_counts().len()],
-            ssim: vec![0.9; view_counts().len()],
             cpu_s: 40.0,
         }
     }
