@@ -16,6 +16,8 @@ pub mod samples;
 mod settings;
 mod shade;
 mod srgb;
+#[cfg(test)]
+mod tests;
 mod texture;
 
 pub use bounding_sphere::{BoundingSphere, bounding_sphere};

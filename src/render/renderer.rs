@@ -14,6 +14,10 @@ use super::{Material, Mesh, RenderSettings};
 use crate::geometry::Pose;
 use crate::imaging::Camera;
 
+/// The most triangles of a pixel that are shaded; where its samples see more, all smaller than a
+/// pixel, these stand for the rest. The samples' order spreads the chosen ones over the pixel.
+const MAX_SHADED: u32 = 4;
+
 /// A mesh made ready to be drawn many times: mip levels built, broken and clear triangles
 /// left out. Can be shared between threads; each image is drawn by the calling thread alone.
 pub struct Renderer {
@@ -152,7 +156,7 @@ impl Renderer {
                     let scale = 1.0 / (N as f32).sqrt();
                     let keep = |x: f32, y: f32| {
                         let hit = facet.hit(view.ray(x, y), view.ray_step());
-                        hit.texture(texture, uv, scale)[3] >= surface.cutoff
+                        hit.texture(texture, uv, scale, false)[3] >= surface.cutoff
                     };
                     view.straighten(p, screen, |s| target.draw(s, id as u32, keep));
                 }
@@ -192,7 +196,7 @@ impl Renderer {
     where
         Samples: Pattern<N>,
     {
-        let (mut sum, mut covered) = ([0.0f32; 3], 0.0f32);
+        let (mut sum, mut covered, mut shaded_weight, mut shaded) = ([0.0f32; 3], 0.0f32, 0.0f32, 0);
         for (first, id) in ids.iter().enumerate() {
             if *id == NOTHING || ids[..first].contains(id) {
                 continue;
@@ -204,14 +208,21 @@ impl Renderer {
                     weight += 1.0;
                 }
             }
+            covered += weight;
+            if shaded == MAX_SHADED {
+                continue;
+            }
+            shaded += 1;
+            shaded_weight += weight;
             let (px, py) = (x + at[0] / weight, y + at[1] / weight);
-            let color = self.shade(*id, view.ray(px, py), view.ray_step(), light, in_camera);
+            // Levels need no blending where several triangles are blended anyway.
+            let alone = weight == N as f32;
+            let color = self.shade(*id, view.ray(px, py), view.ray_step(), alone, light, in_camera);
             for (s, c) in sum.iter_mut().zip(color) {
                 *s += c * weight;
             }
-            covered += weight;
         }
-        let [r, g, b] = sum.map(|s| byte_of_linear(s / covered));
+        let [r, g, b] = sum.map(|s| byte_of_linear(s / shaded_weight));
         [r, g, b, (covered * (255.0 / N as f32) + 0.5) as u8]
     }
 
@@ -221,6 +232,7 @@ impl Renderer {
         id: u32,
         ray: [f32; 3],
         step: [f32; 2],
+        alone: bool,
         light: &PreparedLight,
         in_camera: &[InCamera],
     ) -> [f32; 3] {
@@ -231,7 +243,7 @@ impl Renderer {
         let brightness = hit.light(light, corners.map(|i| self.normals[i]), triangle.turned);
         let color = surface.color.map(|c| c * brightness);
         let Some(texture) = surface.texture else { return color };
-        let [r, g, b, a] = hit.texture(&self.textures[texture], corners.map(|i| self.uvs[i]), 1.0);
+        let [r, g, b, a] = hit.texture(&self.textures[texture], corners.map(|i| self.uvs[i]), 1.0, alone);
         // The texture's colours carry their alpha; what is drawn is opaque.
         let scale = if a > 1e-3 { 1.0 / a } else { 0.0 };
         [color[0] * r * scale, color[1] * g * scale, color[2] * b * scale]

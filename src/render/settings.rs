@@ -6,7 +6,7 @@ use super::Light;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderSettings {
     /// Coverage samples a pixel: 1, 4, 8 or 16; other numbers go up to the next of these,
-    /// and more than 16 to 16. A surface is shaded once a pixel whatever the number.
+    /// and more than 16 to 16. A triangle is shaded once a pixel whatever the number.
     pub samples_per_pixel: u32,
     /// The light.
     pub light: Light,

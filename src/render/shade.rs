@@ -31,6 +31,7 @@ pub(super) struct Hit {
 }
 
 impl Facet {
+    #[inline]
     pub(super) fn new([p, q, r]: [InCamera; 3]) -> Self {
         let (e1, e2) = (minus(q, p), minus(r, p));
         Self { u: cross(e2, p), v: cross(p, e1), normal: cross(e1, e2) }
@@ -57,15 +58,22 @@ impl Facet {
 }
 
 impl Hit {
-    /// The texture at the hit, over the pixel's footprint (linear RGB times alpha, and alpha).
-    /// `scale` shrinks the footprint, for samples that lie closer than pixels.
+    /// The texture at the hit, over the pixel's footprint (see
+    /// [`MipTexture::over_footprint`]).
+    /// `scale` shrinks the footprint, for samples that lie closer than pixels; `blend` as there.
     #[inline]
-    pub(super) fn texture(&self, texture: &MipTexture, uv: [[f32; 2]; 3], scale: f32) -> [f32; 4] {
+    pub(super) fn texture(
+        &self,
+        texture: &MipTexture,
+        uv: [[f32; 2]; 3],
+        scale: f32,
+        blend: bool,
+    ) -> [f32; 4] {
         let at =
             |k: usize| self.weights[0] * uv[0][k] + self.weights[1] * uv[1][k] + self.weights[2] * uv[2][k];
         let (a, b) = ([uv[1][0] - uv[0][0], uv[1][1] - uv[0][1]], [uv[2][0] - uv[0][0], uv[2][1] - uv[0][1]]);
         let change = |d: [f32; 2]| [(a[0] * d[0] + b[0] * d[1]) * scale, (a[1] * d[0] + b[1] * d[1]) * scale];
-        texture.over_footprint([at(0), at(1)], change(self.right), change(self.down))
+        texture.over_footprint([at(0), at(1)], change(self.right), change(self.down), blend)
     }
 
     /// Light at the hit. `normals` are the corners' (world frame); `turned` tells that they

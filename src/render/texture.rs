@@ -60,16 +60,19 @@ impl MipTexture {
 
     /// Linear RGB times alpha, and alpha, averaged over a pixel's footprint, the texture
     /// repeating in both directions. `du` and `dv` are the steps of (u, v) from one pixel
-    /// to its right and lower neighbour.
-    pub(super) fn over_footprint(&self, uv: [f32; 2], du: [f32; 2], dv: [f32; 2]) -> [f32; 4] {
+    /// to its right and lower neighbour. `blend` mixes the two nearest levels; without it the
+    /// nearer one is taken, at half the cost.
+    #[inline]
+    pub(super) fn over_footprint(&self, uv: [f32; 2], du: [f32; 2], dv: [f32; 2], blend: bool) -> [f32; 4] {
         let Some(finest) = self.levels.first() else { return [1.0; 4] };
         let (w, h) = (finest.width as f32, finest.height as f32);
         let texels = |d: [f32; 2]| ((d[0] * w).powi(2) + (d[1] * h).powi(2)).sqrt();
         let (a, b) = (texels(du), texels(dv));
         let (major, minor, along) = if a > b { (a, b, du) } else { (b, a, dv) };
         // At grazing angles the footprint is long and thin: several taps along it on a finer level.
-        let taps = (major / minor.max(1e-9) + 0.25).clamp(1.0, MAX_TAPS).floor();
-        let level = (major / taps).max(1e-9).log2();
+        let taps = (major / minor.max(1e-9) + 0.25).clamp(1.0, MAX_TAPS).floor_fast();
+        let level = log2_roughly((major / taps).max(1e-9));
+        let level = if blend { level } else { (level + 0.5).floor_fast() };
         if !(taps > 1.0) || level <= 0.0 {
             return self.trilinear(uv, level);
         }
@@ -85,6 +88,7 @@ impl MipTexture {
         sum.map(|v| v / taps)
     }
 
+    #[inline]
     fn trilinear(&self, uv: [f32; 2], level: f32) -> [f32; 4] {
         let last = self.levels.len() - 1;
         let level = level.clamp(0.0, last as f32);
@@ -96,6 +100,16 @@ impl MipTexture {
         let coarse = self.levels[lower + 1].bilinear(uv);
         std::array::from_fn(|k| fine[k] + (coarse[k] - fine[k]) * part)
     }
+}
+
+/// log2 of a positive number, to 0.01: enough to choose a level, and several times as fast. The
+/// exponent is exact; a parabola through the ends of an octave stands for the mantissa.
+#[inline]
+fn log2_roughly(value: f32) -> f32 {
+    let bits = value.to_bits();
+    let exponent = (bits >> 23) as i32 - 127;
+    let mantissa = f32::from_bits((bits & 0x007f_ffff) | 0x3f80_0000);
+    exponent as f32 + (mantissa - 1.0) * (1.0 + (2.0 - mantissa) * 0.346_6)
 }
 
 /// Rounding down without a library call (the baseline x86-64 has no instruction for it);
@@ -127,13 +141,19 @@ impl Level {
         };
         let (x0, x1, fx) = axis(uv[0], self.width);
         let (y0, y1, fy) = axis(uv[1], self.height);
-        let at = |x: usize, y: usize| self.texels[y * self.width + x].map(f32::from);
+        let at = |x: usize, y: usize| self.texels[y * self.width + x];
         let (t00, t10, t01, t11) = (at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1));
-        std::array::from_fn(|k| {
-            let top = t00[k] + (t10[k] - t00[k]) * fx;
-            let bottom = t01[k] + (t11[k] - t01[k]) * fx;
-            (top + (bottom - top) * fy) * (1.0 / 65535.0)
-        })
+        // Shares add up to 1 / 65535: the texels' unit goes with them.
+        let (right, left) = (fx * (1.0 / 65535.0), (1.0 - fx) * (1.0 / 65535.0));
+        let [s00, s10, s01, s11] = [left * (1.0 - fy), right * (1.0 - fy), left * fy, right * fy];
+        let mut out = [0.0; 4];
+        for k in 0..4 {
+            out[k] = f32::from(t00[k]) * s00
+                + f32::from(t10[k]) * s10
+                + f32::from(t01[k]) * s01
+                + f32::from(t11[k]) * s11;
+        }
+        out
     }
 }
 
@@ -188,7 +208,7 @@ mod tests {
 
     #[test]
     fn a_far_chequerboard_is_the_linear_mean() {
-        let mean = checks(64).over_footprint([0.3, 0.7], [0.5, 0.0], [0.0, 0.5]);
+        let mean = checks(64).over_footprint([0.3, 0.7], [0.5, 0.0], [0.0, 0.5], true);
         assert!((mean[0] - 0.5).abs() < 1e-3 && mean[3] == 1.0, "{mean:?}");
     }
 
@@ -197,8 +217,12 @@ mod tests {
         let texture = checks(8);
         for shift in [-3.0, 0.0, 2.0] {
             let at = |x: f32, y: f32| {
-                texture.over_footprint([(x + 0.5) / 8.0 + shift, (y + 0.5) / 8.0], [1e-4, 0.0], [0.0, 1e-4])
-                    [0]
+                texture.over_footprint(
+                    [(x + 0.5) / 8.0 + shift, (y + 0.5) / 8.0],
+                    [1e-4, 0.0],
+                    [0.0, 1e-4],
+                    true,
+                )[0]
             };
             assert!((at(2.0, 4.0) - 1.0).abs() < 1e-3 && at(3.0, 4.0) < 1e-3);
         }
@@ -209,7 +233,7 @@ mod tests {
         let texture = MipTexture::new(&RgbaImage::from_fn(4, 4, |x, _| {
             Rgba(if x < 2 { [255, 0, 0, 255] } else { [0, 255, 0, 0] })
         }));
-        let [r, g, _, a] = texture.over_footprint([0.5, 0.5], [1.0, 0.0], [0.0, 1.0]);
+        let [r, g, _, a] = texture.over_footprint([0.5, 0.5], [1.0, 0.0], [0.0, 1.0], true);
         assert!(texture.has_alpha && g == 0.0 && (r / a - 1.0).abs() < 1e-3);
     }
 
