@@ -2,7 +2,11 @@
 
 mod common;
 
-use common::{median_time, row};
+use image::RgbImage;
+
+use std::hint::black_box;
+
+use common::{median_processor_time, row};
 use prv::geometry::{Point, direction_from_azimuth_elevation, look_at};
 use prv::imaging::{Camera, Distortion, composite, psnr, ssim};
 use prv::render::{Material, Mesh, RenderSettings, Renderer, sample_names, sample_object};
@@ -36,19 +40,23 @@ fn ball(triangles: u32) -> Mesh {
     mesh.fitted(Point::origin(), RADIUS_M)
 }
 
-/// Median milliseconds of an image, over views around the object.
+/// Milliseconds of an image, over views around the object.
 fn per_image(mesh: &Mesh, camera: &Camera, samples_per_pixel: u32) -> f64 {
     let renderer = Renderer::new(mesh);
     let settings = RenderSettings { samples_per_pixel, ..RenderSettings::default() };
-    let mut view = 0.0;
-    let runs = if camera.width > 500 { 3 } else { 40 };
-    let time = median_time(runs, || {
-        view = (view + 1.0) % 40.0;
-        let direction = direction_from_azimuth_elevation(view * 2.4, 0.1 + 0.03 * view);
+    let (views, mut view) = (if camera.width > 500 { 5 } else { 40 }, 0);
+    milliseconds(views, || {
+        view = (view + 1) % views;
+        let share = view as f64 / views as f64;
+        let direction = direction_from_azimuth_elevation(share * 96.0, 0.1 + 1.2 * share);
         let eye = Point::origin() + direction.into_inner() * DISTANCE_M;
-        renderer.render(camera, &look_at(&eye, &Point::origin(), 0.0), &settings)
-    });
-    time.as_secs_f64() * 1e3
+        black_box(renderer.render(camera, &look_at(&eye, &Point::origin(), 0.0), &settings));
+    })
+}
+
+/// Median processor milliseconds of one of `repeats` calls.
+fn milliseconds(repeats: usize, call: impl FnMut()) -> f64 {
+    1e3 * median_processor_time(5, repeats, call)
 }
 
 fn main() {
@@ -81,12 +89,7 @@ fn main() {
         let label = format!("128x128, sample {name} ({} triangles), 8 samples", mesh.triangles.len());
         row(&label, per_image(&mesh, &Camera::square(128, 0.37), 8), "ms", Some(5.0));
     }
-    row(
-        "preparing 50,000 triangles",
-        median_time(5, || Renderer::new(&fine)).as_secs_f64() * 1e3,
-        "ms",
-        None,
-    );
+    row("preparing 50,000 triangles", milliseconds(1, || drop(Renderer::new(&fine))), "ms", None);
 
     let renderer = Renderer::new(&coarse);
     let shot = |x: f64| {
@@ -94,6 +97,11 @@ fn main() {
         composite(&renderer.render(&label, &pose, &RenderSettings::default()), [0, 0, 0])
     };
     let (a, b) = (shot(0.0), shot(0.01));
-    row("psnr of 128x128", median_time(200, || psnr(&a, &b)).as_secs_f64() * 1e3, "ms", None);
-    row("ssim of 128x128", median_time(200, || ssim(&a, &b)).as_secs_f64() * 1e3, "ms", None);
+    let figure = |measure: fn(&RgbImage, &RgbImage) -> f64| {
+        milliseconds(200, || {
+            black_box(measure(&a, &b));
+        })
+    };
+    row("psnr of 128x128", figure(psnr), "ms", None);
+    row("ssim of 128x128", figure(ssim), "ms", None);
 }
