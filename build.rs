@@ -88,10 +88,8 @@ fn wheel_bytes(wheel: &Wheel, out: &Path) -> Result<Vec<u8>, String> {
     let cache =
         cache_dir().filter(|dir| fs::create_dir_all(dir).is_ok()).unwrap_or_else(|| out.to_path_buf());
     let cached = cache.join(format!("onnxruntime-{VERSION}-{}.whl", wheel.arch));
-    if let Ok(bytes) = fs::read(&cached) {
-        if sha256(&bytes) == wheel.sha256 {
-            return Ok(bytes);
-        }
+    if let Some(bytes) = fs::read(&cached).ok().filter(|bytes| sha256(bytes) == wheel.sha256) {
+        return Ok(bytes);
     }
     // Each build downloads into a directory of its own and renames: builds may run side by side.
     let scratch = out.join(format!("download-{}", std::process::id()));

@@ -12,6 +12,12 @@ use rand_chacha::ChaCha8Rng;
 
 const POSES: usize = 1000;
 
+/// Calls of one run: under a millisecond, so that most runs fit between two turns of other processes.
+const BATCH: usize = 100;
+
+/// Runs whose median counts.
+const RUNS: usize = 501;
+
 /// Random joint states within the limits and half a turn.
 fn states(robot: &RobotModel) -> Vec<Vec<f64>> {
     let mut random = ChaCha8Rng::seed_from_u64(1);
@@ -36,31 +42,31 @@ fn main() {
     let panda = RobotModel::named("panda").expect("built in");
     let parameters =
         UrParameters { d1_m: 0.1625, a2_m: -0.425, a3_m: -0.3922, d4_m: 0.1333, d5_m: 0.0997, d6_m: 0.0996 };
-    let each = |seconds: f64| seconds * 1e6 / POSES as f64;
+    let each = |seconds: f64| seconds * 1e6 / BATCH as f64;
 
     let targets = poses(&ur5e);
-    let branches = median_time(21, 5, || {
-        for target in &targets {
+    let branches = median_time(RUNS, 1, || {
+        for target in &targets[..BATCH] {
             black_box(parameters.branches(black_box(target), &[0.0; 6]));
         }
     });
     row("UR5e: 8 branches, each measured by forward kinematics", each(branches), "us", Some(3.0));
-    let inverse = median_time(21, 5, || {
-        for target in &targets {
+    let inverse = median_time(RUNS, 1, || {
+        for target in &targets[..BATCH] {
             black_box(ur5e.kinematics.inverse(black_box(target), &[]));
         }
     });
     row("UR5e: inverse() with limits, wraps and lists", each(inverse), "us", None);
     let angles = states(&ur5e);
-    let forward = median_time(21, 5, || {
-        for q in &angles {
+    let forward = median_time(RUNS, 1, || {
+        for q in &angles[..BATCH] {
             black_box(ur5e.kinematics.forward(black_box(q)));
         }
     });
     row("UR5e: forward()", each(forward), "us", None);
     let mut links = Vec::new();
-    let link_poses = median_time(21, 5, || {
-        for q in &angles {
+    let link_poses = median_time(RUNS, 1, || {
+        for q in &angles[..BATCH] {
             ur5e.kinematics.link_poses_into(black_box(q), &mut links);
             black_box(&links);
         }

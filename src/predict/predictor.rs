@@ -144,8 +144,7 @@ impl Predictor {
         let (low, high) = (self.info.label_min, self.info.label_max);
         let bound = format!("within the label range {low} to {high}");
         let clamped = raw.clamp(f64::from(low), f64::from(high));
-        // NaN fails here too.
-        if !((raw - clamped).abs() <= 1e-3) {
+        if raw.is_nan() || (raw - clamped).abs() > 1e-3 {
             return Err(PredictError::Model { field: "answer".to_owned(), value: raw.to_string(), bound });
         }
         Ok(Prediction { raw: clamped, rounded: clamped.round() as u32, label_min: low, label_max: high })
