@@ -79,11 +79,15 @@ $(TRAIN_ENV)/.done: models/training/requirements.txt
 	$(TRAIN_ENV)/bin/pip install -q --disable-pip-version-check -r $<
 	touch $@
 
-## Trains PRVNet on the labels and exports models/prvnet.onnx.
+## Trains PRVNet on the labels, exports models/prvnet.onnx and writes its figures into the model card.
+# Curves that some view set lifts above their 100-view ceiling are within the noise of one NeRF, so both
+# statuses count.
 train: inputs train-env
 	cd models/training && .venv/bin/python -m prvnet.train --labels $(abspath $(LABELS)) --inputs $(abspath $(INPUTS)) \
-	  --encoder $(ENCODER) --out $(abspath $(RUN))
+	  --encoder $(ENCODER) --statuses ok,not_converged --out $(abspath $(RUN))
 	cd models/training && .venv/bin/python -m prvnet.export --run $(abspath $(RUN)) --out $(abspath models/prvnet.onnx)
+	cd models/training && .venv/bin/python -m prvnet.card --run $(abspath $(RUN)) --model $(abspath models/prvnet.onnx) \
+	  --card $(abspath models/MODEL_CARD.md)
 
 test-training: train-env
 	cd models/training && .venv/bin/python -m pytest -q

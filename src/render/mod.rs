@@ -24,7 +24,7 @@ pub use bounding_sphere::{BoundingSphere, bounding_sphere};
 pub use light::{DirectionalLight, Light};
 pub use load::MeshError;
 pub use mesh::{Material, Mesh, MeshWarning};
-pub use objects::{ObjectEntry, Unusable, find_objects, look_at_objects, object_at};
+pub use objects::{LookedAt, ObjectEntry, Unusable, find_objects, look_at_objects, object_at};
 pub use renderer::Renderer;
 pub use samples::{sample_names, sample_object};
 pub use settings::RenderSettings;

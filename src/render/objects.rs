@@ -94,11 +94,14 @@ pub fn find_objects(dir: impl AsRef<Path>) -> Result<Vec<ObjectEntry>, MeshError
     Ok(looked.into_iter().filter_map(|(entry, verdict)| verdict.is_ok().then_some(entry)).collect())
 }
 
+/// An object, and why it cannot be used if it cannot.
+pub type LookedAt = (ObjectEntry, Result<(), Unusable>);
+
 /// All objects below a folder, or in one file, with the reason for each that is not usable; sorted by key.
 ///
 /// # Errors
 /// As [`find_objects`].
-pub fn look_at_objects(dir: impl AsRef<Path>) -> Result<Vec<(ObjectEntry, Result<(), Unusable>)>, MeshError> {
+pub fn look_at_objects(dir: impl AsRef<Path>) -> Result<Vec<LookedAt>, MeshError> {
     let dir = dir.as_ref();
     let mut files = Vec::new();
     walk(dir, &mut files)?;
@@ -164,7 +167,7 @@ fn plain_file(dir: &Path, path: PathBuf) -> (ObjectEntry, Result<(), Unusable>) 
     (entry, verdict)
 }
 
-fn in_library(path: &Path) -> Result<Vec<(ObjectEntry, Result<(), Unusable>)>, MeshError> {
+fn in_library(path: &Path) -> Result<Vec<LookedAt>, MeshError> {
     let archive = Archive::open(path)?;
     let items = furniture::catalogue(&archive)?;
     // Each thread opens the library for itself: an open one serves a single reader at a time.

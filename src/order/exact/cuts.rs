@@ -150,11 +150,8 @@ fn combs(nodes: usize, edges: &[Edge], x: &[f64], support: &[(usize, usize, f64)
             if size < 3 || size > nodes - 3 {
                 continue;
             }
-            if let Some(cut) = comb_with_handle(handle, support) {
-                if cut.violation(edges, x) > COMB_VIOLATION && !cuts.contains(&cut) {
-                    cuts.push(cut);
-                }
-            }
+            let comb = comb_with_handle(handle, support);
+            cuts.extend(comb.filter(|cut| cut.violation(edges, x) > COMB_VIOLATION && !cuts.contains(cut)));
         }
     }
     cuts

@@ -34,7 +34,7 @@ pub(super) fn solve(matrix: &CostMatrix, start: usize, first: Vec<usize>, mut wo
     let mut tour = first;
     tour.push(problem.home());
     let zero = vec![0.0; problem.nodes];
-    tour = problem.from_home(TourSearch::new(&problem, &zero, &tour).run(0));
+    tour = problem.starting_at_home(TourSearch::new(&problem, &zero, &tour).run(0));
     let mut upper = problem.tour_cost(&tour);
     // Half, since the final path may be shorter than this one.
     let tolerance = 0.5 * OPTIMALITY_TOLERANCE * upper;
@@ -45,7 +45,7 @@ pub(super) fn solve(matrix: &CostMatrix, start: usize, first: Vec<usize>, mut wo
     if ascent.bound < upper - tolerance {
         let kicks = (KICKS_PER_NODE * problem.nodes).min((work / (8 * dense)) as usize);
         let mut search = TourSearch::new(&problem, &ascent.prices, &tour);
-        let found = problem.from_home(search.run(kicks));
+        let found = problem.starting_at_home(search.run(kicks));
         work = work.saturating_sub(search.work);
         if problem.tour_cost(&found) < upper {
             upper = problem.tour_cost(&found);
@@ -58,7 +58,7 @@ pub(super) fn solve(matrix: &CostMatrix, start: usize, first: Vec<usize>, mut wo
         let searched = branch::search(&problem, &edges, &ascent.prices, upper, tolerance, &mut work);
         lower_bound = lower_bound.max(searched.bound);
         if let Some(found) = searched.tour {
-            tour = problem.from_home(found);
+            tour = problem.starting_at_home(found);
         }
     }
     Solved { order: tour.into_iter().filter(|&k| k != problem.home()).collect(), lower_bound }

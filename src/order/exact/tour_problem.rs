@@ -59,7 +59,7 @@ impl TourProblem {
     }
 
     /// The same tour, as the path from the start to its free end and `home` last.
-    pub(super) fn from_home(&self, mut tour: Vec<usize>) -> Vec<usize> {
+    pub(super) fn starting_at_home(&self, mut tour: Vec<usize>) -> Vec<usize> {
         if let Some(at) = tour.iter().position(|&k| k == self.start) {
             tour.rotate_left(at);
         }

@@ -204,11 +204,11 @@ mod tests {
         rows[1].alpha_rad = 1.0;
         assert_eq!(UrShape::of(&chain(&rows)), None);
         let spherical = [
-            DhRow::new(0.0, 1.5707963267948966, 0.4, 0.0),
+            DhRow::new(0.0, std::f64::consts::FRAC_PI_2, 0.4, 0.0),
             DhRow::new(0.4, 0.0, 0.0, 0.0),
-            DhRow::new(0.0, 1.5707963267948966, 0.0, 0.0),
-            DhRow::new(0.0, -1.5707963267948966, 0.4, 0.0),
-            DhRow::new(0.0, 1.5707963267948966, 0.0, 0.0),
+            DhRow::new(0.0, std::f64::consts::FRAC_PI_2, 0.0, 0.0),
+            DhRow::new(0.0, -std::f64::consts::FRAC_PI_2, 0.4, 0.0),
+            DhRow::new(0.0, std::f64::consts::FRAC_PI_2, 0.0, 0.0),
             DhRow::new(0.0, 0.0, 0.1, 0.0),
         ];
         assert_eq!(UrShape::of(&chain(&spherical)), None);

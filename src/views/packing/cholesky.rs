@@ -81,6 +81,7 @@ mod tests {
         let mut full = [[0.0; 5]; 5];
         let mut matrix = Envelope::new(first.clone());
         for i in 0..5 {
+            #[expect(clippy::needless_range_loop, reason = "i and j are row and column of one matrix")]
             for j in first[i]..=i {
                 let value = if i == j { 6.0 + i as f64 } else { 1.0 + (i * j) as f64 * 0.3 };
                 matrix.add(i, j, value);

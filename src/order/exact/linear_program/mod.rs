@@ -212,13 +212,13 @@ impl LinearProgram {
             }
         }
         let mut bound = 0.0;
-        for row in 0..rows {
+        for (row, price) in prices.iter_mut().enumerate() {
             if self.upper[columns + row] > 0.0 {
-                prices[row] = prices[row].min(0.0);
+                *price = price.min(0.0);
             }
-            bound += prices[row] * self.right[row];
+            bound += *price * self.right[row];
             if self.place[columns + row] != Place::Basic {
-                self.reduced[columns + row] = -prices[row];
+                self.reduced[columns + row] = -*price;
             }
         }
         for column in 0..columns {
