@@ -1,1 +1,28 @@
-//! (under construction)
+//! From a request to a plan: how many views, where, in which order, along which motion.
+//!
+//! The pipeline of the paper (its section on the system): prediction of the number of views,
+//! Tammes set, poses, global path; with an arm, joint motion through the poses. No HTTP and no
+//! JSON here. Errors name the member to blame in the words of the request (`object.radius`).
+
+mod answer;
+mod arm_path;
+mod check;
+mod error;
+mod free_path;
+mod hand_eye;
+mod make_plan;
+mod photos;
+mod predict_count;
+mod request;
+mod skip_reason;
+mod trajectory;
+mod view_poses;
+
+pub use answer::{CameraPath, ExpectedView, Plan, PlanView, Reason, ViewCount, ViewStatus, Warning};
+pub use check::check;
+pub use error::{FieldValue, PlanError};
+pub use make_plan::make_plan;
+pub use photos::{MAX_PHOTOS, expected_views};
+pub use predict_count::{CountPrediction, predict_count};
+pub use request::{Arm, ObjectSphere, PlanRequest, ViewShell, ViewSource};
+pub use trajectory::{Trajectory, TrajectoryPoint};

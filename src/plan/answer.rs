@@ -1,0 +1,107 @@
+//! The plan.
+
+use std::time::Duration;
+
+use super::Trajectory;
+use crate::geometry::Pose;
+
+/// A plan.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The number of views and where it comes from.
+    pub count: ViewCount,
+    /// Every view of the set; 0 is the top view.
+    pub views: Vec<PlanView>,
+    /// The camera's path through the planned views.
+    pub path: CameraPath,
+    /// The arm's motion; `None` without arm.
+    pub trajectory: Option<Trajectory>,
+    /// Poses from which photos are expected; `None` when none were used.
+    pub expected: Option<Vec<ExpectedView>>,
+    /// What the caller should know although the plan is usable.
+    pub warnings: Vec<Warning>,
+    /// Time spent by step. The one member that differs between two runs.
+    pub timings: Vec<(&'static str, Duration)>,
+}
+
+/// The number of views.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewCount {
+    /// The network's number, rounded.
+    pub predicted: Option<u32>,
+    /// The network's number.
+    pub raw: Option<f64>,
+    /// The number of views in the set.
+    pub used: usize,
+}
+
+/// One view.
+#[derive(Clone, Debug)]
+pub struct PlanView {
+    /// Name of an initial view.
+    pub name: Option<&'static str>,
+    /// `base_from_camera`.
+    pub pose: Pose,
+    /// Whether the path visits it.
+    pub status: ViewStatus,
+}
+
+/// Whether the path visits a view.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ViewStatus {
+    /// Visited.
+    Planned,
+    /// Left out.
+    Skipped(Reason),
+}
+
+/// Why a view is left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reason {
+    /// `no_ik`, `joint_limit`, `self_collision`, `table_collision`, `object_collision` or `no_path`.
+    pub code: &'static str,
+    /// For people.
+    pub message: String,
+    /// The numbers of the message by name, with the unit in the name.
+    pub numbers: Vec<(&'static str, f64)>,
+    /// Names of the joint or of the touching parts.
+    pub parts: Vec<String>,
+}
+
+/// The order of the planned views and the camera's way through them around the object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraPath {
+    /// Indices of views.
+    pub order: Vec<usize>,
+    /// Length of the shortest curves around the object's sphere and above the table, metres.
+    pub length_m: f64,
+    /// Proven lower bound over all orders, metres.
+    pub lower_bound_m: f64,
+    /// No order is shorter.
+    pub optimal: bool,
+}
+
+/// A pose from which a photo is expected.
+#[derive(Clone, Debug)]
+pub struct ExpectedView {
+    /// Name of the initial view.
+    pub name: &'static str,
+    /// `base_from_camera`, level horizon.
+    pub pose: Pose,
+}
+
+/// What the caller should know.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Stable name.
+    pub code: &'static str,
+    /// For people.
+    pub message: String,
+}
+
+impl Warning {
+    /// A warning.
+    pub fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self { code, message: message.into() }
+    }
+}

@@ -1,0 +1,137 @@
+//! Bounds of a request's numbers, and the usual mistakes behind values outside them.
+
+use super::{Arm, ObjectSphere, PlanError, PlanRequest, ViewSource, Warning, hand_eye, photos};
+use crate::views::MAX_VIEWS;
+
+/// Largest coordinate of the object's centre and of the table, metres: beyond any arm's reach.
+const FARTHEST_M: f64 = 5.0;
+/// Object radii, metres.
+const OBJECT_RADIUS_M: (f64, f64) = (0.005, 1.0);
+/// Largest radius of the view shell, metres.
+const SHELL_RADIUS_M: f64 = 3.0;
+/// The shell's radius over the object's: a camera closer than that is in the object.
+const SHELL_OVER_OBJECT: f64 = 1.05;
+
+/// Checks every number of `request` and collects what is suspicious but possible.
+///
+/// # Errors
+/// The first member that is out of its bound, in the order of the request's documentation.
+pub fn check(request: &PlanRequest) -> Result<Vec<Warning>, PlanError> {
+    let mut warnings = Vec::new();
+    match request.camera {
+        Some(camera) => camera.check()?,
+        None => warnings.push(Warning::new(
+            "default_camera",
+            "no camera given: a RealSense D435's colour camera (1280x720, fx 915.607) is assumed",
+        )),
+    }
+    check_source(&request.source)?;
+    match &request.object {
+        Some(object) => check_object(object)?,
+        None if request.arm.is_some() || matches!(request.source, ViewSource::Photos(_)) => {
+            return Err(PlanError::missing("object", "given with a robot or with images"));
+        }
+        None => warnings.push(Warning::new(
+            "default_object",
+            "no object given: a sphere of 0.1 m at the origin without table is assumed",
+        )),
+    }
+    check_shell(request)?;
+    warnings.extend(photos::check(request)?);
+    if let Some(arm) = &request.arm {
+        warnings.extend(check_arm(arm)?);
+    }
+    Ok(warnings)
+}
+
+fn check_source(source: &ViewSource) -> Result<(), PlanError> {
+    match source {
+        ViewSource::Count(count) if !(1..=MAX_VIEWS).contains(count) => Err(PlanError::number(
+            "out_of_range",
+            "view_count",
+            *count as f64,
+            format!("from 1 to {MAX_VIEWS}"),
+        )),
+        ViewSource::Photos(images) if !(1..=photos::MAX_PHOTOS).contains(&images.len()) => {
+            Err(PlanError::number(
+                "image_count",
+                "images",
+                images.len() as f64,
+                format!("1 to {} images", photos::MAX_PHOTOS),
+            ))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_object(object: &ObjectSphere) -> Result<(), PlanError> {
+    for (axis, value) in object.center_in_base.iter().enumerate() {
+        length(&format!("object.center[{axis}]"), *value, -FARTHEST_M, FARTHEST_M)?;
+    }
+    length("object.radius", object.radius_m, OBJECT_RADIUS_M.0, OBJECT_RADIUS_M.1)?;
+    let Some(table_z_m) = object.table_z_m else { return Ok(()) };
+    length("object.table_z", table_z_m, -FARTHEST_M, FARTHEST_M)?;
+    if object.center_in_base.z < table_z_m {
+        return Err(PlanError::number(
+            "object_below_table",
+            "object.center[2]",
+            object.center_in_base.z,
+            format!("at least object.table_z, {table_z_m} m"),
+        ));
+    }
+    Ok(())
+}
+
+fn check_shell(request: &PlanRequest) -> Result<(), PlanError> {
+    request.shell.band.validate()?;
+    let radius_m = request.shell.radius_m;
+    length("view_space.radius", radius_m, 1e-3, SHELL_RADIUS_M)?;
+    let least_m = SHELL_OVER_OBJECT * request.object().radius_m;
+    if radius_m < least_m {
+        return Err(PlanError::number(
+            "camera_inside_object",
+            "view_space.radius",
+            radius_m,
+            format!("at least {SHELL_OVER_OBJECT} times object.radius, {least_m} m"),
+        ));
+    }
+    Ok(())
+}
+
+fn check_arm(arm: &Arm) -> Result<Vec<Warning>, PlanError> {
+    let mut warnings: Vec<Warning> =
+        arm.model.warnings.iter().map(|text| Warning::new("robot_description", text.clone())).collect();
+    match &arm.flange_from_camera {
+        Some(pose) => warnings.extend(hand_eye::check(pose)?),
+        None => warnings.push(Warning::new(
+            "default_hand_eye",
+            "no flange_from_camera given: the camera is assumed 0.05 m in front of the flange, looking along \
+             its z axis",
+        )),
+    }
+    if let Some(start_rad) = &arm.start_rad {
+        if let Some(index) = start_rad.iter().position(|angle| !angle.is_finite()) {
+            let value = start_rad.get(index).copied().unwrap_or(f64::NAN);
+            return Err(PlanError::number("not_finite", format!("start[{index}]"), value, "a finite angle"));
+        }
+        let (_, clamped) = arm.model.clamp_start(start_rad)?;
+        warnings.extend(clamped.iter().map(|joint| Warning::new("start_clamped", joint.to_string())));
+    }
+    Ok(warnings)
+}
+
+/// A length within its bounds; one that would fit if it were millimetres is said to be.
+fn length(field: &str, value: f64, least: f64, most: f64) -> Result<(), PlanError> {
+    if !value.is_finite() {
+        return Err(PlanError::number("not_finite", field, value, format!("from {least} to {most} m")));
+    }
+    if (least..=most).contains(&value) {
+        return Ok(());
+    }
+    let metres = value / 1000.0;
+    if value.abs() > most && (least..=most).contains(&metres) {
+        let bound = format!("from {least} to {most} m (millimetres? {value} mm are {metres} m)");
+        return Err(PlanError::number("millimetres", field, value, bound));
+    }
+    Err(PlanError::number("out_of_range", field, value, format!("from {least} to {most} m")))
+}

@@ -1,0 +1,102 @@
+//! The pipeline.
+
+use std::time::{Duration, Instant};
+
+use super::arm_path::arm_path;
+use super::free_path::free_path;
+use super::{
+    Plan, PlanError, PlanRequest, PlanView, ViewCount, ViewSource, ViewStatus, Warning, check,
+    expected_views, predict_count, view_poses,
+};
+use crate::predict::Predictor;
+
+/// Plans `request`: check, number of views, set, poses, order and, with an arm, its motion.
+///
+/// `predictor` is needed for photos only; `Err` says why there is none. The plan depends on the
+/// request and the model alone, except for its timings.
+///
+/// # Errors
+/// [`PlanError`]. Views that cannot be reached are no error: they are skipped with their reasons.
+pub fn make_plan(request: &PlanRequest, predictor: Result<&Predictor, &str>) -> Result<Plan, PlanError> {
+    let mut clock = Clock::start();
+    let mut warnings = check(request)?;
+    clock.lap("check");
+
+    let (count, views, expected) = match &request.source {
+        ViewSource::Photos(images) => {
+            let predictor = predictor.map_err(|cause| PlanError::NoPredictor { cause: cause.to_owned() })?;
+            let prediction = predict_count(request, predictor)?;
+            clock.lap("predict");
+            let count = ViewCount {
+                predicted: Some(prediction.rounded),
+                raw: Some(prediction.raw),
+                used: prediction.rounded as usize,
+            };
+            let expected = expected_views(&request.view_space(), images.len());
+            (count, view_poses::set(request, count.used)?, Some(expected))
+        }
+        ViewSource::Count(used) => {
+            let count = ViewCount { predicted: None, raw: None, used: *used };
+            (count, view_poses::set(request, *used)?, None)
+        }
+        ViewSource::Initial { five } => {
+            let views = view_poses::initial(request, *five);
+            (ViewCount { predicted: None, raw: None, used: views.poses.len() }, views, None)
+        }
+    };
+    clock.lap("views");
+
+    let end_at_top = matches!(request.source, ViewSource::Initial { .. });
+    let (statuses, poses, path, trajectory) = match &request.arm {
+        Some(arm) => {
+            let found = arm_path(request, arm, &views.poses, end_at_top)?;
+            clock.laps.extend(found.timings);
+            warnings.extend(found.warnings);
+            (found.statuses, found.poses, found.path, found.trajectory)
+        }
+        None => {
+            let (statuses, path) = free_path(request, &views.poses, end_at_top)?;
+            clock.lap("order");
+            (statuses, views.poses, path, None)
+        }
+    };
+    warnings.extend(skipped_warning(&statuses));
+    let views = poses
+        .into_iter()
+        .zip(views.names)
+        .zip(statuses)
+        .map(|((pose, name), status)| PlanView { name, pose, status })
+        .collect();
+    clock.total();
+    Ok(Plan { count, views, path, trajectory, expected, warnings, timings: clock.laps })
+}
+
+fn skipped_warning(statuses: &[ViewStatus]) -> Option<Warning> {
+    let skipped = statuses.iter().filter(|status| **status != ViewStatus::Planned).count();
+    let text = || format!("{skipped} of {} views are skipped; their reasons stand with them", statuses.len());
+    (skipped > 0).then(|| Warning::new("views_skipped", text()))
+}
+
+/// Time by step.
+struct Clock {
+    begin: Instant,
+    last: Instant,
+    laps: Vec<(&'static str, Duration)>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        let now = Instant::now();
+        Self { begin: now, last: now, laps: Vec::new() }
+    }
+
+    fn lap(&mut self, name: &'static str) {
+        let now = Instant::now();
+        self.laps.push((name, now - self.last));
+        self.last = now;
+    }
+
+    fn total(&mut self) {
+        self.laps.push(("total", self.begin.elapsed()));
+    }
+}
