@@ -1,1 +1,28 @@
-//! (under construction)
+//! The service: the only room that knows HTTP and JSON.
+//!
+//! `wire` is the JSON, `convert` its meaning, `errors` the refusals, `routes` the handlers, `store`
+//! the files, `executions` the runs. [`Planner`] serves the command line too.
+
+mod config;
+mod convert;
+mod errors;
+mod executions;
+mod extract;
+mod heavy;
+mod openapi;
+mod planner;
+mod problem;
+mod router;
+mod routes;
+mod server;
+mod state;
+mod store;
+mod wire;
+
+pub use config::ServiceConfig;
+pub use extract::{MAX_BODY_BYTES, parse_json};
+pub use openapi::openapi_json;
+pub use planner::Planner;
+pub use problem::Problem;
+pub use server::serve;
+pub use wire::{PlanAnswer, PlanRequestJson};

@@ -1,15 +1,19 @@
 //! The command line: one file a subcommand, each with its arguments and its `run`.
 
 mod camera_flag;
+mod capture;
 mod health;
 mod inputs;
 mod label;
 mod nerf;
 mod objects;
+mod openapi;
 mod order;
+mod plan;
 mod predict;
 mod render;
 mod robots;
+mod serve;
 mod views;
 
 use std::process::ExitCode;
@@ -27,24 +31,32 @@ struct Cli {
 /// One variant a subcommand; each holds the arguments defined in the file of its name.
 #[derive(Subcommand)]
 enum Command {
-    /// Label objects with the number of views a NeRF of them needs.
-    Label(label::Args),
+    /// Photograph an object with the simulated camera.
+    Capture(capture::Args),
     /// Ask a running service whether it is ready.
     Health(health::Args),
     /// Render the initial photos of labelled objects, cut for training.
     Inputs(inputs::Args),
-    /// Find the shortest path through points around an object.
-    Order(order::Args),
+    /// Label objects with the number of views a NeRF of them needs.
+    Label(label::Args),
     /// Train a NeRF on posed images and measure it.
     Nerf(nerf::Args),
-    /// Predict how many views an object needs.
-    Predict(predict::Args),
     /// List the usable objects in folders and furniture libraries.
     Objects(objects::Args),
+    /// Print the OpenAPI document.
+    Openapi(openapi::Args),
+    /// Find the shortest path through points around an object.
+    Order(order::Args),
+    /// Plan a request from a file.
+    Plan(plan::Args),
+    /// Predict how many views an object needs.
+    Predict(predict::Args),
     /// Render an object.
     Render(render::Args),
     /// List the built-in robots, their limits and the sources of their numbers.
     Robots(robots::Args),
+    /// Serve the HTTP interface; what `prv` does without a subcommand.
+    Serve(serve::Args),
     /// Place views around an object, as far apart as they can be.
     Views(views::Args),
 }
@@ -54,17 +66,23 @@ pub type CliResult = Result<(), Box<dyn std::error::Error>>;
 
 /// Parses the command line and runs it. Exit codes: 0 done, 1 failed, 2 bad usage (clap).
 pub fn run() -> ExitCode {
-    let cli = Cli::parse();
+    // Without a subcommand the program serves, so that `cargo run --release` does.
+    let words: Vec<_> = std::env::args_os().collect();
+    let cli = if words.len() == 1 { Cli::parse_from(["prv", "serve"]) } else { Cli::parse_from(words) };
     let result: CliResult = match cli.command {
-        Command::Label(args) => label::run(&args),
+        Command::Capture(args) => capture::run(&args),
         Command::Health(args) => health::run(&args),
         Command::Inputs(args) => inputs::run(&args),
-        Command::Order(args) => order::run(&args),
+        Command::Label(args) => label::run(&args),
         Command::Nerf(args) => nerf::run(&args),
-        Command::Predict(args) => predict::run(&args),
         Command::Objects(args) => objects::run(&args),
+        Command::Openapi(args) => openapi::run(&args),
+        Command::Order(args) => order::run(&args),
+        Command::Plan(args) => plan::run(&args),
+        Command::Predict(args) => predict::run(&args),
         Command::Render(args) => render::run(&args),
         Command::Robots(args) => robots::run(&args),
+        Command::Serve(args) => serve::run(&args),
         Command::Views(args) => views::run(&args),
     };
     match result {

@@ -1,0 +1,17 @@
+//! Wire types to domain types and back: the one place that knows both.
+
+mod answer;
+mod camera;
+mod images;
+mod object;
+mod pose;
+mod request;
+mod robot;
+
+pub use answer::{expected_views, plan_answer, timings_json, trajectory, warnings_json};
+pub use camera::{camera, camera_json};
+pub use images::{MAX_IMAGE_PIXELS, base64_bytes, images};
+pub use object::object;
+pub use pose::{pose, pose_json};
+pub use request::{plan_request, prediction_request, shell};
+pub use robot::{robot, robot_details, robot_summaries};

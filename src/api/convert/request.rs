@@ -1,0 +1,87 @@
+//! Requests.
+
+use super::{camera, images, object, pose, robot};
+use crate::api::problem::Problem;
+use crate::api::wire::{InitialViewsJson, PlanRequestJson, PredictionRequest, RollJson, ViewSpaceJson};
+use crate::plan::{Arm, PlanRequest, ViewShell, ViewSource};
+use crate::views::Band;
+
+/// The shell of views.
+///
+/// # Errors
+/// 422 for elevations that make no band.
+pub fn shell(json: &ViewSpaceJson) -> Result<ViewShell, Problem> {
+    let band = Band::from_degrees(json.min_elevation_deg, json.max_elevation_deg)?;
+    Ok(ViewShell { radius_m: json.radius, band })
+}
+
+/// The request of a plan. Photos are decoded last: they are what takes time.
+///
+/// # Errors
+/// 422 naming the member.
+pub fn plan_request(json: &PlanRequestJson) -> Result<PlanRequest, Problem> {
+    let given = [json.images.is_some(), json.view_count.is_some(), json.views.is_some()];
+    if given.iter().filter(|given| **given).count() != 1 {
+        let names: Vec<&str> = ["images", "view_count", "views"]
+            .into_iter()
+            .zip(given)
+            .filter_map(|(name, given)| given.then_some(name))
+            .collect();
+        let value = if names.is_empty() { "none of them".to_owned() } else { names.join(" and ") };
+        let field = names.first().copied().unwrap_or("images");
+        return Err(Problem::field(
+            "view_source",
+            field,
+            value,
+            "exactly one of images, view_count and views",
+        ));
+    }
+    let camera = json.camera.as_ref().map(camera).transpose()?;
+    let arm = arm(json)?;
+    let poses = |poses: &Vec<_>| {
+        poses.iter().enumerate().map(|(index, json)| pose(&format!("image_poses[{index}]"), json)).collect()
+    };
+    let photo_poses = json.image_poses.as_ref().map(poses).transpose()?;
+    let shell = shell(&json.view_space)?;
+    let source = match (&json.images, json.view_count, json.views) {
+        (Some(texts), _, _) => ViewSource::Photos(images(texts)?),
+        (None, Some(count), _) => ViewSource::Count(count as usize),
+        (None, None, initial) => ViewSource::Initial { five: initial == Some(InitialViewsJson::InitialFive) },
+    };
+    Ok(PlanRequest { source, photo_poses, camera, object: json.object.as_ref().map(object), shell, arm })
+}
+
+fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
+    let Some(description) = &json.robot else {
+        for (field, given) in
+            [("flange_from_camera", json.flange_from_camera.is_some()), ("start", json.start.is_some())]
+        {
+            if given {
+                return Err(Problem::field("robot_missing", field, "given", "left out without robot"));
+            }
+        }
+        return Ok(None);
+    };
+    let mount = json.flange_from_camera.as_ref().map(|json| pose("flange_from_camera", json)).transpose()?;
+    Ok(Some(Arm {
+        model: robot(description)?,
+        flange_from_camera: mount,
+        start_rad: json.start.clone(),
+        free_roll: json.roll == RollJson::Free,
+    }))
+}
+
+/// The request of a prediction, as a plan's request without arm.
+///
+/// # Errors
+/// 422 naming the member.
+pub fn prediction_request(json: &PredictionRequest) -> Result<PlanRequest, Problem> {
+    plan_request(&PlanRequestJson {
+        images: Some(json.images.clone()),
+        image_poses: json.image_poses.clone(),
+        camera: json.camera,
+        object: Some(json.object),
+        view_space: json.view_space,
+        ..PlanRequestJson::default()
+    })
+}

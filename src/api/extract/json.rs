@@ -1,0 +1,175 @@
+//! JSON bodies, with errors that name the member, the value and what was expected.
+
+use axum::extract::{FromRequest, Request};
+use axum::http::{StatusCode, header};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use serde_json::error::Category;
+
+use super::BodyBytes;
+use crate::api::problem::Problem;
+
+/// A body of type `application/json` that parses as `T`.
+pub struct JsonBody<T>(pub T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for JsonBody<T> {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
+        let content_type = request.headers().get(header::CONTENT_TYPE).cloned();
+        let given = content_type.as_ref().map(|v| String::from_utf8_lossy(v.as_bytes()).into_owned());
+        let is_json = given.as_deref().is_some_and(|text| {
+            let essence = text.split(';').next().unwrap_or("").trim().to_ascii_lowercase();
+            essence == "application/json"
+                || (essence.starts_with("application/") && essence.ends_with("+json"))
+        });
+        // The body is read before any refusal so that the client gets to see the answer.
+        let BodyBytes(bytes) = BodyBytes::from_request(request, state).await?;
+        if !is_json {
+            return Err(Problem::field("unsupported_media_type", "Content-Type", given, "application/json")
+                .with_status(StatusCode::UNSUPPORTED_MEDIA_TYPE));
+        }
+        parse_json(&bytes).map(Self)
+    }
+}
+
+/// Parses `bytes`.
+///
+/// # Errors
+/// A [`Problem`]: 400 `malformed_json` when it is no JSON (`NaN`, numbers beyond f64), 422
+/// `invalid_member` when a member is missing, unknown or of the wrong type.
+pub fn parse_json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Problem> {
+    // A list of values would be read as a request's members in order.
+    if bytes.trim_ascii_start().first() == Some(&b'[') {
+        let status = StatusCode::UNPROCESSABLE_ENTITY;
+        let problem = Problem::new(status, "invalid_member", "the body is a list, not an object");
+        return Err(problem.at("body", lookup(bytes, ""), "an object"));
+    }
+    let mut reader = serde_json::Deserializer::from_slice(bytes);
+    let parsed: T = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+        let path = error.path().to_string();
+        explain(bytes, path, error.inner())
+    })?;
+    reader.end().map_err(|error| explain(bytes, ".".to_owned(), &error))?;
+    Ok(parsed)
+}
+
+fn explain(bytes: &[u8], path: String, error: &serde_json::Error) -> Problem {
+    let path = if path == "." { "body".to_owned() } else { path };
+    match error.classify() {
+        Category::Data => wrong_member(bytes, path, error),
+        Category::Syntax | Category::Eof | Category::Io => {
+            let bound = if error.to_string().starts_with("number out of range") {
+                "a number within the range of a 64-bit float"
+            } else {
+                "valid JSON (which knows no NaN or Infinity)"
+            };
+            Problem::new(StatusCode::BAD_REQUEST, "malformed_json", format!("{path}: {error}")).at(
+                path,
+                token_at(bytes, error.line(), error.column()),
+                bound,
+            )
+        }
+    }
+}
+
+fn wrong_member(bytes: &[u8], path: String, error: &serde_json::Error) -> Problem {
+    let message = error.to_string();
+    let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(head, _)| head).to_owned();
+    let quoted = || message.split('`').nth(1).unwrap_or("").to_owned();
+    let join = |name: String| if path == "body" { name } else { format!("{path}.{name}") };
+    let (field, value, bound) = if message.starts_with("missing field") {
+        (join(quoted()), Value::Null, "given".to_owned())
+    } else if message.starts_with("unknown field") {
+        let known = message.split_once(", ").map_or("", |(_, known)| known);
+        // The path of an unknown member ends with the member itself.
+        (path.clone(), lookup(bytes, &path), format!("left out: {known}"))
+    } else {
+        let bound = message.split_once("expected ").map_or(message.as_str(), |(_, bound)| bound).to_owned();
+        (path.clone(), lookup(bytes, &path), bound)
+    };
+    let status = StatusCode::UNPROCESSABLE_ENTITY;
+    Problem::new(status, "invalid_member", format!("{field}: {message}")).at(field, value, bound)
+}
+
+/// The value at a path such as `object.center[2]`, null when there is none.
+fn lookup(bytes: &[u8], path: &str) -> Value {
+    let Ok(document) = serde_json::from_slice::<Value>(bytes) else { return Value::Null };
+    let mut found = &document;
+    for segment in path.split(['.', '[']).filter(|s| !s.is_empty() && *s != "body") {
+        let next = match segment.strip_suffix(']').and_then(|index| index.parse::<usize>().ok()) {
+            Some(index) => found.get(index),
+            None => found.get(segment),
+        };
+        match next {
+            Some(value) => found = value,
+            None => return Value::Null,
+        }
+    }
+    found.clone()
+}
+
+/// The word around a position of the document, at most 40 bytes of it.
+fn token_at(bytes: &[u8], line: usize, column: usize) -> String {
+    let text = bytes.split(|b| *b == b'\n').nth(line.saturating_sub(1)).unwrap_or(&[]);
+    let is_word = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'+' | b'-' | b'.' | b'_');
+    let at = column.saturating_sub(1).min(text.len());
+    let (before, after) = text.split_at(at);
+    let start = before.iter().rev().take_while(|b| is_word(b)).count().min(40);
+    let end = after.iter().take_while(|b| is_word(b)).count().min(40);
+    let word = text.get(at - start..at + end.max(1)).or_else(|| text.get(at - start..)).unwrap_or(&[]);
+    String::from_utf8_lossy(word).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::api::wire::PlanRequestJson;
+
+    fn refusal(body: &str) -> Problem {
+        parse_json::<PlanRequestJson>(body.as_bytes()).unwrap_err()
+    }
+
+    #[test]
+    fn a_nan_is_named_with_its_member() {
+        let problem = refusal(r#"{"view_count": 5, "object": {"center": [0.1, NaN, 0.2], "radius": 0.1}}"#);
+        assert_eq!((problem.status, problem.code.as_str()), (400, "malformed_json"));
+        assert_eq!(problem.field.as_deref(), Some("object.center[1]"));
+        assert_eq!(problem.value, Some("NaN".into()));
+    }
+
+    #[test]
+    fn a_number_beyond_f64_is_named_with_its_member() {
+        let problem = refusal(r#"{"object": {"radius": 1e999, "center": [0, 0, 0]}}"#);
+        assert_eq!(problem.status, 400);
+        assert_eq!(problem.field.as_deref(), Some("object.radius"));
+        assert_eq!(problem.value, Some("1e999".into()));
+        assert!(problem.bound.unwrap().contains("64-bit"));
+    }
+
+    #[test]
+    fn a_text_instead_of_a_number_is_named_with_its_value() {
+        let problem = refusal(r#"{"object": {"center": [0, 0, "high"], "radius": 0.1}}"#);
+        assert_eq!((problem.status, problem.code.as_str()), (422, "invalid_member"));
+        assert_eq!(problem.field.as_deref(), Some("object.center[2]"));
+        assert_eq!(problem.value, Some("high".into()));
+        assert_eq!(problem.bound.as_deref(), Some("f64"));
+    }
+
+    #[test]
+    fn unknown_and_missing_members_are_named() {
+        let unknown = refusal(r#"{"view_count": 5, "objekt": 3}"#);
+        assert_eq!(unknown.field.as_deref(), Some("objekt"));
+        assert_eq!(unknown.value, Some(3.into()));
+        assert!(unknown.bound.unwrap().contains("`object`"));
+        let missing = refusal(r#"{"object": {"center": [0, 0, 0]}}"#);
+        assert_eq!(missing.field.as_deref(), Some("object.radius"));
+    }
+
+    #[test]
+    fn a_cut_off_document_is_malformed() {
+        assert_eq!(refusal(r#"{"view_count": 5"#).code, "malformed_json");
+        assert_eq!(refusal("").code, "malformed_json");
+        assert_eq!(refusal("{} {}").code, "malformed_json");
+    }
+}

@@ -1,0 +1,91 @@
+//! From a request's JSON to an answer's, the same for the service and the command line.
+
+use std::path::Path;
+use std::time::Instant;
+
+use sha2::{Digest, Sha256};
+
+use super::convert;
+use super::problem::Problem;
+use super::wire::{PlanAnswer, PlanRequestJson, PredictionAnswer, PredictionRequest};
+use crate::plan::{self, expected_views, make_plan, predict_count};
+use crate::predict::{Predictor, model_bytes};
+
+/// Plans requests with one model, or without when none can be had.
+pub struct Planner {
+    predictor: Result<Predictor, String>,
+}
+
+impl Planner {
+    /// Loads the model of `file`, or the shipped one. A model that cannot be loaded is no error
+    /// here: plans with a given number of views need none. [`Planner::missing`] tells.
+    pub fn load(file: Option<&Path>, threads: usize, pool: usize) -> Self {
+        let load = || Predictor::load(&model_bytes(file)?, threads, pool);
+        Self { predictor: load().map_err(|error| error.to_string()) }
+    }
+
+    /// Why there is no prediction, if there is none.
+    pub fn missing(&self) -> Option<&str> {
+        self.predictor.as_ref().err().map(String::as_str)
+    }
+
+    /// SHA-256 of the model, `none` without one.
+    pub fn model_hash(&self) -> &str {
+        self.predictor.as_ref().map_or("none", |predictor| &predictor.info().sha256)
+    }
+
+    /// The id of a request's plan: a hash of its canonical form, this version and the model.
+    pub fn plan_id(&self, request: &PlanRequestJson) -> Result<String, Problem> {
+        let canonical = serde_json::to_vec(request).map_err(|e| Problem::internal(e.to_string()))?;
+        let mut hash = Sha256::new();
+        for part in [env!("CARGO_PKG_VERSION").as_bytes(), self.model_hash().as_bytes(), &canonical] {
+            hash.update((part.len() as u64).to_le_bytes());
+            hash.update(part);
+        }
+        Ok(hash.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect())
+    }
+
+    /// Plans a request.
+    ///
+    /// # Errors
+    /// A [`Problem`] for what cannot be planned.
+    pub fn plan(&self, json: &PlanRequestJson) -> Result<PlanAnswer, Problem> {
+        let begin = Instant::now();
+        let id = self.plan_id(json)?;
+        let request = convert::plan_request(json)?;
+        let decoded = begin.elapsed();
+        let predictor = self.predictor.as_ref().map_err(String::as_str);
+        let mut plan = make_plan(&request, predictor)?;
+        // From here the total includes hashing and decoding the request.
+        plan.timings.retain(|(name, _)| *name != "total");
+        plan.timings.extend([("decode", decoded), ("total", begin.elapsed())]);
+        Ok(convert::plan_answer(id, plan))
+    }
+
+    /// Predicts the number of views.
+    ///
+    /// # Errors
+    /// A [`Problem`] for what cannot be predicted.
+    pub fn predict(&self, json: &PredictionRequest) -> Result<PredictionAnswer, Problem> {
+        let begin = Instant::now();
+        let request = convert::prediction_request(json)?;
+        let decoded = begin.elapsed();
+        let warnings = plan::check(&request)?;
+        let predictor =
+            self.predictor.as_ref().map_err(|cause| plan::PlanError::NoPredictor { cause: cause.clone() })?;
+        let prediction = predict_count(&request, predictor)?;
+        let timings =
+            [("decode", decoded), ("predict", begin.elapsed() - decoded), ("total", begin.elapsed())];
+        Ok(PredictionAnswer {
+            predicted: prediction.rounded,
+            raw: prediction.raw,
+            model: self.model_hash().to_owned(),
+            expected_image_poses: convert::expected_views(&expected_views(
+                &request.view_space(),
+                json.images.len(),
+            )),
+            warnings: convert::warnings_json(&warnings),
+            timings_ms: convert::timings_json(&timings),
+        })
+    }
+}

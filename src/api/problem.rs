@@ -1,0 +1,138 @@
+//! `application/problem+json` (RFC 9457): every refusal the service makes.
+
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Why a request was refused. `code` is stable; `field`, `value` and `bound` are there whenever
+/// one member of the request is to blame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[schema(example = json!({"type": "about:blank", "title": "Unprocessable Entity", "status": 422, "code": "out_of_range", "detail": "object.radius is -0.1, must be from 0.005 to 1 m", "field": "object.radius", "value": -0.1, "bound": "from 0.005 to 1 m"}))]
+pub struct Problem {
+    /// Always `about:blank`: the `code` tells problems apart.
+    #[serde(rename = "type")]
+    pub kind: String,
+    /// The status in words.
+    pub title: String,
+    /// The HTTP status.
+    pub status: u16,
+    /// Stable name of the problem.
+    pub code: String,
+    /// For people.
+    pub detail: String,
+    /// Path of the offending member, such as `object.center[2]` or `images[0]`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub field: Option<String>,
+    /// The offending value, shortened.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<serde_json::Value>,
+    /// What the value must be.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<String>,
+    /// Sent as `Retry-After`, seconds.
+    #[serde(skip)]
+    #[schema(ignore)]
+    pub retry_after_s: Option<u32>,
+}
+
+impl Problem {
+    /// A problem without a field.
+    pub fn new(status: StatusCode, code: &str, detail: impl Into<String>) -> Self {
+        Self {
+            kind: "about:blank".to_owned(),
+            title: status.canonical_reason().unwrap_or("Error").to_owned(),
+            status: status.as_u16(),
+            code: code.to_owned(),
+            detail: detail.into(),
+            field: None,
+            value: None,
+            bound: None,
+            retry_after_s: None,
+        }
+    }
+
+    /// A refused member of the request: status 422.
+    pub fn field(
+        code: &str,
+        field: impl Into<String>,
+        value: impl Into<serde_json::Value>,
+        bound: impl Into<String>,
+    ) -> Self {
+        let (field, value, bound) = (field.into(), shorten(value.into()), bound.into());
+        let detail = format!("{field} is {value}, must be {bound}");
+        Self::new(StatusCode::UNPROCESSABLE_ENTITY, code, detail).at(field, value, bound)
+    }
+
+    /// Names the member to blame.
+    pub fn at(
+        mut self,
+        field: impl Into<String>,
+        value: impl Into<serde_json::Value>,
+        bound: impl Into<String>,
+    ) -> Self {
+        self.field = Some(field.into());
+        self.value = Some(shorten(value.into()));
+        self.bound = Some(bound.into());
+        self
+    }
+
+    /// Another status.
+    pub fn with_status(mut self, status: StatusCode) -> Self {
+        self.title = status.canonical_reason().unwrap_or("Error").to_owned();
+        self.status = status.as_u16();
+        self
+    }
+
+    /// 404 for a resource.
+    pub fn not_found(code: &str, field: &str, value: &str, bound: impl Into<String>) -> Self {
+        Self::field(code, field, value, bound).with_status(StatusCode::NOT_FOUND)
+    }
+
+    /// 503 with the time to wait.
+    pub fn unavailable(code: &str, detail: impl Into<String>, retry_after_s: Option<u32>) -> Self {
+        Self { retry_after_s, ..Self::new(StatusCode::SERVICE_UNAVAILABLE, code, detail) }
+    }
+
+    /// 500: an error that no request should be able to cause.
+    pub fn internal(detail: impl Into<String>) -> Self {
+        Self::new(StatusCode::INTERNAL_SERVER_ERROR, "internal", detail)
+    }
+}
+
+/// Values are echoed so that they can be recognised, not sent back whole.
+fn shorten(value: serde_json::Value) -> serde_json::Value {
+    const LONGEST: usize = 80;
+    match value {
+        serde_json::Value::String(text) if text.chars().count() > LONGEST => {
+            let head: String = text.chars().take(LONGEST).collect();
+            serde_json::Value::String(format!("{head}... ({} characters)", text.chars().count()))
+        }
+        serde_json::Value::Array(items) if items.len() > 16 => format!("array of {}", items.len()).into(),
+        serde_json::Value::Array(items) => items.into_iter().map(shorten).collect(),
+        serde_json::Value::Object(members) if members.len() > 16 => {
+            format!("object of {} members", members.len()).into()
+        }
+        serde_json::Value::Object(members) => {
+            serde_json::Value::Object(members.into_iter().map(|(k, v)| (k, shorten(v))).collect())
+        }
+        other => other,
+    }
+}
+
+impl IntoResponse for Problem {
+    fn into_response(self) -> Response {
+        if self.status >= 500 {
+            tracing::error!(code = %self.code, detail = %self.detail, "refused");
+        }
+        let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+        let body = serde_json::to_vec(&self).unwrap_or_default();
+        let mut response = (status, body).into_response();
+        let headers = response.headers_mut();
+        headers.insert(header::CONTENT_TYPE, HeaderValue::from_static("application/problem+json"));
+        if let Some(seconds) = self.retry_after_s {
+            headers.insert(header::RETRY_AFTER, HeaderValue::from(seconds));
+        }
+        response
+    }
+}

@@ -1,0 +1,91 @@
+//! `/v1/executions`: start, look, cancel.
+
+use std::sync::Arc;
+
+use axum::Json;
+use axum::extract::{FromRequest, Request, State};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+
+use super::off_thread;
+use crate::api::executions::{Entry, prepare};
+use crate::api::extract::{JsonBody, PathParam};
+use crate::api::problem::Problem;
+use crate::api::state::AppState;
+use crate::api::wire::{CreateExecution, ExecutionJson, ExecutionList};
+
+/// Start a run of the simulated arm through a stored plan.
+///
+/// The arm follows the plan's trajectory, rests at each view and takes a photo from where its
+/// joints put the camera. A plan without robot is flown by a free camera, with a warning.
+#[utoipa::path(
+    post, path = "/v1/executions", tag = "executions", request_body = CreateExecution,
+    responses(
+        (status = 202, description = "Queued", body = ExecutionJson),
+        (status = 404, description = "No such plan", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A member is refused", body = Problem, content_type = "application/problem+json"),
+        (status = 503, description = "Too many runs wait", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub async fn create(State(app): State<AppState>, request: Request) -> Result<Response, Problem> {
+    let admission = app.heavy.admit()?;
+    let JsonBody(json) = JsonBody::<CreateExecution>::from_request(request, &app).await?;
+    let (plans, config, executions) = (app.plans.clone(), app.config.clone(), app.executions.clone());
+    let work = move || {
+        let scratch = executions.store().scratch();
+        let (record, job) = prepare(&json, &plans, config.objects_dir.as_deref(), &scratch)?;
+        Ok(executions.start(record, job)?.execution())
+    };
+    let execution = app.heavy.run(admission, work).await?;
+    let location = HeaderValue::from_str(&format!("/v1/executions/{}", execution.id));
+    let mut response = (StatusCode::ACCEPTED, Json(execution)).into_response();
+    if let Ok(location) = location {
+        response.headers_mut().insert(header::LOCATION, location);
+    }
+    Ok(response)
+}
+
+/// Runs, also those of earlier lives of the service.
+#[utoipa::path(get, path = "/v1/executions", tag = "executions", responses((status = 200, description = "Ids", body = ExecutionList)))]
+pub async fn list(State(app): State<AppState>) -> Json<ExecutionList> {
+    Json(ExecutionList { executions: app.executions.ids() })
+}
+
+/// State and progress of a run.
+#[utoipa::path(
+    get, path = "/v1/executions/{id}", tag = "executions", params(("id" = String, Path, description = "The run's id")),
+    responses(
+        (status = 200, description = "The run", body = ExecutionJson),
+        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub async fn get(
+    State(app): State<AppState>,
+    PathParam(id): PathParam<String>,
+) -> Result<Json<ExecutionJson>, Problem> {
+    Ok(Json(find(&app, &id)?.execution()))
+}
+
+/// Stop a run: the arm stands still where it is, photos taken so far stay.
+#[utoipa::path(
+    post, path = "/v1/executions/{id}/cancel", tag = "executions", params(("id" = String, Path, description = "The run's id")),
+    responses(
+        (status = 202, description = "Asked to stop", body = ExecutionJson),
+        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "It is over", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub async fn cancel(
+    State(app): State<AppState>,
+    PathParam(id): PathParam<String>,
+) -> Result<(StatusCode, Json<ExecutionJson>), Problem> {
+    let entry = find(&app, &id)?;
+    let cancel = move || app.executions.cancel(&entry).map(|()| entry.execution());
+    let execution = off_thread(cancel).await?;
+    Ok((StatusCode::ACCEPTED, Json(execution)))
+}
+
+/// The run with this id.
+pub(super) fn find(app: &AppState, id: &str) -> Result<Arc<Entry>, Problem> {
+    app.executions.get(id).ok_or_else(|| Problem::not_found("unknown_execution", "id", id, "the id of a run"))
+}

@@ -1,0 +1,96 @@
+//! Photos and poses of a run.
+
+use axum::Json;
+use axum::extract::State;
+use axum::http::{HeaderValue, header};
+use axum::response::{IntoResponse, Response};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::executions::find;
+use super::json_bytes;
+use crate::api::extract::PathParam;
+use crate::api::problem::Problem;
+use crate::api::state::AppState;
+use crate::api::wire::ExecutionImages;
+
+/// Bound of the photos that are sent in one JSON document: what `POST /v1/plans` takes.
+const MOST_IMAGES: usize = crate::plan::MAX_PHOTOS;
+
+/// The photos of a run as base64 with their poses and camera: merged into a request, they are ready
+/// for `POST /v1/plans`. At most five.
+#[utoipa::path(
+    get, path = "/v1/executions/{id}/images", tag = "executions", params(("id" = String, Path, description = "The run's id")),
+    responses(
+        (status = 200, description = "Photos in the order taken", body = ExecutionImages),
+        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "More than five photos: fetch them one by one", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub async fn list(
+    State(app): State<AppState>,
+    PathParam(id): PathParam<String>,
+) -> Result<Json<ExecutionImages>, Problem> {
+    let record = find(&app, &id)?.record();
+    let count = record.execution.images.len();
+    if count > MOST_IMAGES {
+        let bound = format!("at most {MOST_IMAGES}; fetch /v1/executions/{id}/images/{{view}} one by one");
+        return Err(Problem::field("image_count", "images", count, bound));
+    }
+    let mut images = Vec::with_capacity(count);
+    for view in &record.execution.images {
+        images.push(STANDARD.encode(read(&app, &id, *view).await?));
+    }
+    Ok(Json(ExecutionImages { images, image_poses: record.image_poses, camera: record.camera }))
+}
+
+/// The photo of one view, PNG.
+#[utoipa::path(
+    get, path = "/v1/executions/{id}/images/{view}", tag = "executions",
+    params(("id" = String, Path, description = "The run's id"), ("view" = u32, Path, description = "The view's id")),
+    responses(
+        (status = 200, description = "PNG", content_type = "image/png"),
+        (status = 404, description = "No such run, or the view is not taken (yet)", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub async fn get(
+    State(app): State<AppState>,
+    PathParam((id, view)): PathParam<(String, u32)>,
+) -> Result<Response, Problem> {
+    let taken = find(&app, &id)?.execution().images;
+    if !taken.contains(&view) {
+        let bound = format!("one of the views taken so far, {taken:?}");
+        return Err(Problem::not_found("unknown_image", "view", &view.to_string(), bound));
+    }
+    let mut response = read(&app, &id, view).await?.into_response();
+    response.headers_mut().insert(header::CONTENT_TYPE, HeaderValue::from_static("image/png"));
+    Ok(response)
+}
+
+/// Cameras and poses of all photos as instant-ngp and nerfstudio read them.
+#[utoipa::path(
+    get, path = "/v1/executions/{id}/transforms.json", tag = "executions", params(("id" = String, Path, description = "The run's id")),
+    responses(
+        (status = 200, description = "transforms.json; file paths are relative to the run's directory", content_type = "application/json"),
+        (status = 404, description = "No such run, or it is not over yet", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub async fn transforms(
+    State(app): State<AppState>,
+    PathParam(id): PathParam<String>,
+) -> Result<Response, Problem> {
+    let state = find(&app, &id)?.execution().state;
+    match tokio::fs::read(app.executions.store().path(&id).join("transforms.json")).await {
+        Ok(bytes) => Ok(json_bytes(bytes)),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            let state = serde_json::to_value(state).unwrap_or_default();
+            Err(Problem::field("no_transforms", "state", state, "done, or cancelled after a photo")
+                .with_status(axum::http::StatusCode::NOT_FOUND))
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+async fn read(app: &AppState, id: &str, view: u32) -> Result<Vec<u8>, Problem> {
+    Ok(tokio::fs::read(app.executions.store().images(id).join(format!("{view:03}.png"))).await?)
+}

@@ -1,0 +1,77 @@
+//! `/v1/plans`.
+
+use axum::Json;
+use axum::extract::{FromRequest, Request, State};
+use axum::http::{HeaderValue, StatusCode, header};
+use axum::response::Response;
+
+use super::{json_bytes, off_thread};
+use crate::api::extract::{JsonBody, PathParam};
+use crate::api::problem::Problem;
+use crate::api::state::AppState;
+use crate::api::wire::{PlanAnswer, PlanList, PlanRequestJson};
+
+/// Plan views, order and motion.
+///
+/// The same request gives the same plan: it is computed once and stored under a hash of the
+/// request, the service's version and the model. 201 for a new plan, 200 for a stored one.
+#[utoipa::path(
+    post, path = "/v1/plans", tag = "plans", request_body = PlanRequestJson,
+    responses(
+        (status = 201, description = "Computed and stored", body = PlanAnswer),
+        (status = 200, description = "Stored before; the same bytes", body = PlanAnswer),
+        (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
+        (status = 413, description = "Body over 32 MiB", body = Problem, content_type = "application/problem+json"),
+        (status = 415, description = "Not application/json", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A member is refused: field, value and bound tell", body = Problem, content_type = "application/problem+json"),
+        (status = 503, description = "Overloaded, or images were given and there is no model", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub async fn create(State(app): State<AppState>, request: Request) -> Result<Response, Problem> {
+    let admission = app.heavy.admit()?;
+    let JsonBody(json) = JsonBody::<PlanRequestJson>::from_request(request, &app).await?;
+    let (planner, plans) = (app.planner.clone(), app.plans.clone());
+    let work = move || -> Result<(String, Vec<u8>, bool), Problem> {
+        let id = planner.plan_id(&json)?;
+        if let Some(stored) = plans.answer(&id)? {
+            return Ok((id, stored, false));
+        }
+        let answer = planner.plan(&json)?;
+        let encode = |e: serde_json::Error| Problem::internal(e.to_string());
+        let bytes = serde_json::to_vec(&answer).map_err(encode)?;
+        let cell = serde_json::to_vec(&PlanRequestJson { images: None, ..json }).map_err(encode)?;
+        let (stored, new) = plans.put(&id, bytes, &cell)?;
+        Ok((id, stored, new))
+    };
+    let (id, bytes, new) = app.heavy.run(admission, work).await?;
+    let mut response = json_bytes(bytes);
+    if new {
+        *response.status_mut() = StatusCode::CREATED;
+    }
+    if let Ok(location) = HeaderValue::from_str(&format!("/v1/plans/{id}")) {
+        response.headers_mut().insert(header::LOCATION, location);
+    }
+    Ok(response)
+}
+
+/// Stored plans.
+#[utoipa::path(get, path = "/v1/plans", tag = "plans", responses((status = 200, description = "Ids", body = PlanList)))]
+pub async fn list(State(app): State<AppState>) -> Result<Json<PlanList>, Problem> {
+    off_thread(move || Ok(Json(PlanList { plans: app.plans.ids()? }))).await
+}
+
+/// A stored plan, byte for byte as it was answered.
+#[utoipa::path(
+    get, path = "/v1/plans/{id}", tag = "plans", params(("id" = String, Path, description = "The plan's id")),
+    responses(
+        (status = 200, description = "The plan", body = PlanAnswer),
+        (status = 404, description = "No such plan", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub async fn get(State(app): State<AppState>, PathParam(id): PathParam<String>) -> Result<Response, Problem> {
+    let (plans, wanted) = (app.plans, id.clone());
+    match off_thread(move || Ok(plans.answer(&wanted)?)).await? {
+        Some(bytes) => Ok(json_bytes(bytes)),
+        None => Err(Problem::not_found("unknown_plan", "id", &id, "the id of a stored plan")),
+    }
+}

@@ -1,0 +1,49 @@
+//! What every handler shares.
+
+use std::io;
+use std::sync::Arc;
+
+use super::config::ServiceConfig;
+use super::executions::Executions;
+use super::heavy::HeavyWork;
+use super::planner::Planner;
+use super::store::{ExecutionStore, PlanStore};
+
+/// The service's parts; cheap to clone.
+#[derive(Clone)]
+pub struct AppState {
+    /// Computes plans and predictions.
+    pub planner: Arc<Planner>,
+    /// Places for heavy requests.
+    pub heavy: HeavyWork,
+    /// Stored plans.
+    pub plans: PlanStore,
+    /// Runs.
+    pub executions: Executions,
+    /// Settings.
+    pub config: Arc<ServiceConfig>,
+}
+
+impl AppState {
+    /// Opens the stores and loads the model; says what is missing.
+    ///
+    /// # Errors
+    /// A data directory that cannot be used.
+    pub fn open(config: ServiceConfig) -> io::Result<Self> {
+        let plans = PlanStore::open(&config.data_dir)?;
+        let executions = Executions::open(ExecutionStore::open(&config.data_dir)?, config.arms)?;
+        let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
+        let planner = Planner::load(config.model.as_deref(), threads, config.workers.max(1));
+        match planner.missing() {
+            Some(cause) => tracing::error!(%cause, "predictions are not available; give view_count instead"),
+            None => tracing::info!(model = planner.model_hash(), "the prediction model is ready"),
+        }
+        Ok(Self {
+            planner: Arc::new(planner),
+            heavy: HeavyWork::new(config.workers, config.queue),
+            plans,
+            executions,
+            config: Arc::new(config),
+        })
+    }
+}

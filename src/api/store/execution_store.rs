@@ -1,0 +1,117 @@
+//! Stored executions.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use serde::{Deserialize, Serialize};
+
+use super::{is_id, replace};
+use crate::api::wire::{CameraJson, ExecutionJson, PoseJson};
+
+/// All that is known about a run.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ExecutionRecord {
+    /// What `GET /v1/executions/{id}` answers.
+    pub execution: ExecutionJson,
+    /// The camera of its images.
+    pub camera: CameraJson,
+    /// `base_from_camera` of each image, in the order of `execution.images`.
+    pub image_poses: Vec<PoseJson>,
+    /// Events so far: name and data; the index is the event's id.
+    pub events: Vec<(String, serde_json::Value)>,
+}
+
+/// Executions as directories.
+#[derive(Clone, Debug)]
+pub struct ExecutionStore {
+    directory: PathBuf,
+}
+
+impl ExecutionStore {
+    /// Opens (and creates) the directory `executions` below `data`.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn open(data: &Path) -> io::Result<Self> {
+        let directory = data.join("executions");
+        fs::create_dir_all(&directory)?;
+        Ok(Self { directory })
+    }
+
+    /// Takes a new id: runs are numbered.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn create(&self) -> io::Result<String> {
+        let mut number =
+            self.ids()?.last().and_then(|id| id.strip_prefix("run-")?.parse::<u64>().ok()).unwrap_or(0);
+        loop {
+            number += 1;
+            let id = format!("run-{number:06}");
+            match fs::create_dir(self.path(&id)) {
+                Ok(()) => {
+                    fs::create_dir_all(self.images(&id))?;
+                    return Ok(id);
+                }
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// Writes the record.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn save(&self, record: &ExecutionRecord) -> io::Result<()> {
+        let bytes = serde_json::to_vec(record).map_err(io::Error::other)?;
+        replace(&self.path(&record.execution.id).join("record.json"), &bytes)
+    }
+
+    /// Every record that can be read, sorted by id; a run without one is left alone.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn load_all(&self) -> io::Result<Vec<ExecutionRecord>> {
+        let mut records = Vec::new();
+        for id in self.ids()? {
+            match fs::read(self.path(&id).join("record.json")).map(|bytes| serde_json::from_slice(&bytes)) {
+                Ok(Ok(record)) => records.push(record),
+                Ok(Err(error)) => tracing::warn!(%id, %error, "an execution's record cannot be read"),
+                Err(error) => tracing::warn!(%id, %error, "an execution has no record"),
+            }
+        }
+        Ok(records)
+    }
+
+    /// The run's directory.
+    pub fn path(&self, id: &str) -> PathBuf {
+        self.directory.join(id)
+    }
+
+    /// The directory of its images.
+    pub fn images(&self, id: &str) -> PathBuf {
+        self.path(id).join("images")
+    }
+
+    /// A directory name that nobody else uses, for passing files.
+    pub fn scratch(&self) -> PathBuf {
+        static COUNTER: AtomicU64 = AtomicU64::new(0);
+        let number = COUNTER.fetch_add(1, Ordering::Relaxed);
+        self.directory.join(format!(".scratch-{}-{number}", std::process::id()))
+    }
+
+    fn ids(&self) -> io::Result<Vec<String>> {
+        let mut ids = Vec::new();
+        for entry in fs::read_dir(&self.directory)? {
+            let name = entry?.file_name().to_string_lossy().into_owned();
+            if is_id(&name) {
+                ids.push(name);
+            }
+        }
+        ids.sort();
+        Ok(ids)
+    }
+}

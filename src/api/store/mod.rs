@@ -1,0 +1,22 @@
+//! What outlives the process: plans and executions as files below the data directory.
+//!
+//! ```text
+//! plans/<id>.json            the answer, byte for byte
+//! plans/<id>.request.json    the canonical request without its images
+//! executions/<id>/record.json, images/<view>.png, transforms.json
+//! ```
+//! Every file is written beside its place, synced and renamed, so that a reader or a crash sees
+//! the whole file or none.
+
+mod atomic_file;
+mod execution_store;
+mod plan_store;
+
+pub use atomic_file::{create_once, replace};
+pub use execution_store::{ExecutionRecord, ExecutionStore};
+pub use plan_store::PlanStore;
+
+/// True when `id` can be a file's name here: letters, digits and `-`, 1 to 64 of them.
+fn is_id(id: &str) -> bool {
+    (1..=64).contains(&id.len()) && id.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'-')
+}

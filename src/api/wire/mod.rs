@@ -1,0 +1,30 @@
+//! The service's JSON, member by member: names, units and defaults as documented in OpenAPI.
+//!
+//! Requests refuse unknown members. A request serialised again from these types is its
+//! canonical form: the plan id is a hash of it.
+
+mod camera;
+mod execution;
+mod object;
+mod plan_answer;
+mod plan_request;
+mod pose;
+mod prediction;
+mod robot;
+mod view_space;
+
+pub use camera::CameraJson;
+pub use execution::{
+    BackgroundJson, CreateExecution, ExecutionImages, ExecutionJson, ExecutionList, ExecutionObject,
+    ExecutionStateJson, JointsJson, ObjectSummary, ProgressJson,
+};
+pub use object::ObjectJson;
+pub use plan_answer::{
+    PlanAnswer, PlanList, PlannedView, SkipReason, TrajectoryJson, TrajectoryPointJson, ViewCountJson,
+    ViewStatusJson, WarningJson,
+};
+pub use plan_request::{InitialViewsJson, PlanRequestJson, RollJson};
+pub use pose::PoseJson;
+pub use prediction::{ExpectedPose, PredictionAnswer, PredictionRequest};
+pub use robot::{DhConventionJson, DhRowJson, JointLimitJson, RobotDetails, RobotJson, RobotSummary};
+pub use view_space::{ViewSpaceAnswer, ViewSpaceJson, ViewSpaceView};

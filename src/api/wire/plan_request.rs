@@ -1,0 +1,87 @@
+//! `POST /v1/plans`.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::{CameraJson, ObjectJson, PoseJson, RobotJson, ViewSpaceJson};
+
+/// What to plan. Exactly one of `images`, `view_count` and `views` says how many views.
+///
+/// SI units, quaternions x, y, z, w, OpenCV camera axes, everything in the robot's `base` frame.
+#[derive(Clone, Debug, Default, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+#[schema(as = PlanRequest, example = json!({
+    "view_count": 35,
+    "object": {"center": [0.45, 0.0, 0.1], "radius": 0.1, "table_z": 0.0},
+    "view_space": {"radius": 0.3, "min_elevation_deg": 5.0, "max_elevation_deg": 90.0},
+    "robot": {"model": "ur5e"},
+    "flange_from_camera": {"position": [0.0, 0.0, 0.05], "orientation": [0.0, 0.0, 0.0, 1.0]},
+    "roll": "free"
+}))]
+pub struct PlanRequestJson {
+    /// 1 to 5 photos of the object, PNG or JPEG in base64, each of the camera's size and at most
+    /// 25 megapixels, taken from the initial view poses: the number of views is predicted. The
+    /// body may hold 32 MiB in all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub images: Option<Vec<String>>,
+    /// Where the photos were taken, `base_from_camera`, in the order of `images`. Poses that
+    /// differ from the expected ones give a warning.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image_poses: Option<Vec<PoseJson>>,
+    /// Number of views, 1 to 200: skips the prediction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 1, maximum = 200)]
+    pub view_count: Option<u32>,
+    /// `initial` plans the path through the initial photo poses, ending at the top view.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub views: Option<InitialViewsJson>,
+    /// Intrinsics of the camera; an Intel RealSense D435's colour camera (1280x720) with a warning
+    /// when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera: Option<CameraJson>,
+    /// The object's enclosing sphere and table. Only a request without robot and images may leave
+    /// it out (0.1 m at the origin, with a warning).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub object: Option<ObjectJson>,
+    /// The views' shell; 0.3 m, 5 to 90 degrees when left out.
+    #[serde(default)]
+    pub view_space: ViewSpaceJson,
+    /// The arm; without it the answer holds poses and order only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robot: Option<RobotJson>,
+    /// Hand-eye calibration: the camera's pose in the flange (`tool0`) frame, which is what
+    /// OpenCV's `calibrateHandEye` returns for eye-in-hand. When left out, the camera sits 0.05 m
+    /// in front of the flange and looks along its z axis, with a warning.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flange_from_camera: Option<PoseJson>,
+    /// Joint angles in radians from which the arm starts, one a joint; the trajectory starts at
+    /// the first view when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<Vec<f64>>,
+    /// Whether a view may be turned about its optical axis; `free` when left out.
+    #[serde(default)]
+    pub roll: RollJson,
+}
+
+/// Which initial views.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = InitialViews)]
+pub enum InitialViewsJson {
+    /// Top, left and front.
+    Initial,
+    /// Top, left, right, front and back.
+    InitialFive,
+}
+
+/// Rotation about the optical axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = Roll)]
+pub enum RollJson {
+    /// Chosen by the planner for least joint motion.
+    #[default]
+    Free,
+    /// The horizon stays level.
+    Fixed,
+}
