@@ -1,0 +1,18 @@
+//! The service as its users meet it: a real process on a free port. One file a scenario.
+
+mod cancel;
+mod capture;
+mod determinism;
+mod events;
+mod execution_refusals;
+mod garbage;
+mod harness;
+mod offline_plan;
+mod online_workflow;
+mod openapi_drift;
+mod overload;
+mod reading;
+mod refusals;
+mod restart;
+mod robots_described;
+mod skipped_views;
