@@ -8,8 +8,9 @@ use super::{InstructionSet, NerfError};
 pub struct NerfSettings {
     /// Optimiser steps, 1 to 1,000,000.
     pub steps: u32,
-    /// Samples with colour and gradient in a step, 64 to 1,048,576; many small
-    /// steps beat few large ones at the same product of the two.
+    /// Samples with colour and gradient in a step, 64 to 1,048,576: a step ends with the
+    /// group of rays (about 1,024 samples) that reaches this number. Many small steps
+    /// beat few large ones at the same product of the two.
     pub samples_per_step: u32,
     /// Seed of initial weights, rays and backgrounds.
     pub seed: u64,

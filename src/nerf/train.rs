@@ -15,7 +15,7 @@ use crate::imaging::PosedImage;
 const THRESHOLDS: Thresholds = Thresholds { weight: 3e-3, transmittance: 1e-3 };
 /// Kept samples that a group of rays should have: enough to fill blocks, few
 /// enough to stay in the second-level cache.
-const GROUP_SAMPLES: usize = 448;
+const GROUP_SAMPLES: usize = 1024;
 /// Fewest and most rays in a group.
 const GROUP: (usize, usize) = (24, 1024);
 /// Steps between two updates of the occupancy grid; the step up to which an update
