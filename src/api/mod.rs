@@ -23,6 +23,6 @@ pub use config::ServiceConfig;
 pub use extract::{MAX_BODY_BYTES, parse_json};
 pub use openapi::openapi_json;
 pub use planner::Planner;
-pub use problem::Problem;
+pub use problem::{Problem, ProblemJson};
 pub use server::serve;
 pub use wire::{PlanAnswer, PlanRequestJson};

@@ -2,7 +2,7 @@
 
 use utoipa::OpenApi;
 
-use super::problem::Problem;
+use super::problem::ProblemJson;
 use super::routes::{events, executions, health, images, objects, plans, predictions, robots, view_spaces};
 
 /// All routes; schemas follow from them.
@@ -22,7 +22,7 @@ use super::routes::{events, executions, health, images, objects, plans, predicti
         executions::create, executions::list, executions::get, executions::cancel, events::stream, images::list,
         images::get, images::transforms, objects::list, health::live, health::ready,
     ),
-    components(schemas(Problem)),
+    components(schemas(ProblemJson)),
     tags(
         (name = "plans", description = "Plan views, order and motion"),
         (name = "views", description = "View sets"),

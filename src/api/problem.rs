@@ -1,20 +1,22 @@
 //! `application/problem+json` (RFC 9457): every refusal the service makes.
 
+use std::ops::{Deref, DerefMut};
+
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use utoipa::ToSchema;
 
 /// Why a request was refused. `code` is stable; `field`, `value` and `bound` are there whenever
 /// one member of the request is to blame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
-#[schema(example = json!({"type": "about:blank", "title": "Unprocessable Entity", "status": 422, "code": "out_of_range", "detail": "object.radius is -0.1, must be from 0.005 to 1 m", "field": "object.radius", "value": -0.1, "bound": "from 0.005 to 1 m"}))]
-pub struct Problem {
+#[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
+#[schema(as = Problem, example = json!({"type": "about:blank", "title": "Unprocessable Entity", "status": 422, "code": "out_of_range", "detail": "object.radius is -0.1, must be from 0.005 to 1 m", "field": "object.radius", "value": -0.1, "bound": "from 0.005 to 1 m"}))]
+pub struct ProblemJson {
     /// Always `about:blank`: the `code` tells problems apart.
     #[serde(rename = "type")]
-    pub kind: String,
+    pub kind: &'static str,
     /// The status in words.
-    pub title: String,
+    pub title: &'static str,
     /// The HTTP status.
     pub status: u16,
     /// Stable name of the problem.
@@ -22,13 +24,13 @@ pub struct Problem {
     /// For people.
     pub detail: String,
     /// Path of the offending member, such as `object.center[2]` or `images[0]`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub field: Option<String>,
     /// The offending value, shortened.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<serde_json::Value>,
     /// What the value must be.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub bound: Option<String>,
     /// Sent as `Retry-After`, seconds.
     #[serde(skip)]
@@ -36,12 +38,31 @@ pub struct Problem {
     pub retry_after_s: Option<u32>,
 }
 
+/// A [`ProblemJson`] as an error: boxed, since results are passed around far more often than refused.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Problem(Box<ProblemJson>);
+
+impl Deref for Problem {
+    type Target = ProblemJson;
+
+    fn deref(&self) -> &ProblemJson {
+        &self.0
+    }
+}
+
+impl DerefMut for Problem {
+    fn deref_mut(&mut self) -> &mut ProblemJson {
+        &mut self.0
+    }
+}
+
 impl Problem {
     /// A problem without a field.
     pub fn new(status: StatusCode, code: &str, detail: impl Into<String>) -> Self {
-        Self {
-            kind: "about:blank".to_owned(),
-            title: status.canonical_reason().unwrap_or("Error").to_owned(),
+        Self(Box::new(ProblemJson {
+            kind: "about:blank",
+            title: status.canonical_reason().unwrap_or("Error"),
             status: status.as_u16(),
             code: code.to_owned(),
             detail: detail.into(),
@@ -49,7 +70,7 @@ impl Problem {
             value: None,
             bound: None,
             retry_after_s: None,
-        }
+        }))
     }
 
     /// A refused member of the request: status 422.
@@ -79,7 +100,7 @@ impl Problem {
 
     /// Another status.
     pub fn with_status(mut self, status: StatusCode) -> Self {
-        self.title = status.canonical_reason().unwrap_or("Error").to_owned();
+        self.title = status.canonical_reason().unwrap_or("Error");
         self.status = status.as_u16();
         self
     }
@@ -91,7 +112,9 @@ impl Problem {
 
     /// 503 with the time to wait.
     pub fn unavailable(code: &str, detail: impl Into<String>, retry_after_s: Option<u32>) -> Self {
-        Self { retry_after_s, ..Self::new(StatusCode::SERVICE_UNAVAILABLE, code, detail) }
+        let mut problem = Self::new(StatusCode::SERVICE_UNAVAILABLE, code, detail);
+        problem.retry_after_s = retry_after_s;
+        problem
     }
 
     /// 500: an error that no request should be able to cause.

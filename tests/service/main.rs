@@ -11,6 +11,7 @@ mod offline_plan;
 mod online_workflow;
 mod openapi_drift;
 mod overload;
+mod prediction;
 mod reading;
 mod refusals;
 mod restart;

@@ -8,7 +8,7 @@ use crate::harness::{Server, cell, with};
 async fn a_robot_given_by_its_dh_table_goes_where_the_named_one_does() {
     let data = tempfile::tempdir().unwrap();
     let server = Server::start(data.path());
-    let row = |d: f64, a: f64, alpha: f64, reach: f64| json!({"d": d, "a": a, "alpha": alpha, "min": -reach, "max": reach, "max_speed": 3.14});
+    let row = |d: f64, a: f64, alpha: f64, reach: f64| json!({"d": d, "a": a, "alpha": alpha, "min": -reach, "max": reach, "max_speed": 3.0});
     let (quarter, turn, half) = (std::f64::consts::FRAC_PI_2, std::f64::consts::TAU, std::f64::consts::PI);
     let table = json!([
         row(0.1625, 0.0, quarter, turn),

@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::Entry;
 use crate::api::convert::pose_json;
-use crate::api::store::{ExecutionStore, replace};
+use crate::api::store::{ExecutionStore, replace_unsynced};
 use crate::geometry::Pose;
 use crate::imaging::composite;
 use crate::simulate::{Observer, Photo, SimulateError};
@@ -42,7 +42,7 @@ impl Observer for Recorder<'_> {
         };
         let mut bytes = std::io::Cursor::new(Vec::new());
         image.write_to(&mut bytes, ImageFormat::Png).map_err(|error| fail(error.to_string()))?;
-        replace(&path, bytes.get_ref()).map_err(|error| fail(error.to_string()))?;
+        replace_unsynced(&path, bytes.get_ref()).map_err(|error| fail(error.to_string()))?;
         self.photos.push((name, photo.base_from_camera));
         let stored = self.entry.update(self.store, |record| {
             let view = photo.view as u32;

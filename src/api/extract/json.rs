@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(problem.status, 400);
         assert_eq!(problem.field.as_deref(), Some("object.radius"));
         assert_eq!(problem.value, Some("1e999".into()));
-        assert!(problem.bound.unwrap().contains("64-bit"));
+        assert!(problem.bound.as_deref().unwrap().contains("64-bit"));
     }
 
     #[test]
@@ -161,7 +161,7 @@ mod tests {
         let unknown = refusal(r#"{"view_count": 5, "objekt": 3}"#);
         assert_eq!(unknown.field.as_deref(), Some("objekt"));
         assert_eq!(unknown.value, Some(3.into()));
-        assert!(unknown.bound.unwrap().contains("`object`"));
+        assert!(unknown.bound.as_deref().unwrap().contains("`object`"));
         let missing = refusal(r#"{"object": {"center": [0, 0, 0]}}"#);
         assert_eq!(missing.field.as_deref(), Some("object.radius"));
     }

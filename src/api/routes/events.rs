@@ -12,7 +12,7 @@ use tokio::sync::watch;
 use super::executions::find;
 use crate::api::executions::Entry;
 use crate::api::extract::PathParam;
-use crate::api::problem::Problem;
+use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 
 /// Where a listener stands.
@@ -38,7 +38,7 @@ struct Listener {
     ),
     responses(
         (status = 200, description = "Events state, view and progress", content_type = "text/event-stream"),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn stream(

@@ -10,7 +10,7 @@ use axum::response::{IntoResponse, Response};
 use super::off_thread;
 use crate::api::executions::{Entry, prepare};
 use crate::api::extract::{JsonBody, PathParam};
-use crate::api::problem::Problem;
+use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 use crate::api::wire::{CreateExecution, ExecutionJson, ExecutionList};
 
@@ -22,9 +22,9 @@ use crate::api::wire::{CreateExecution, ExecutionJson, ExecutionList};
     post, path = "/v1/executions", tag = "executions", request_body = CreateExecution,
     responses(
         (status = 202, description = "Queued", body = ExecutionJson),
-        (status = 404, description = "No such plan", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A member is refused", body = Problem, content_type = "application/problem+json"),
-        (status = 503, description = "Too many runs wait", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such plan", body = ProblemJson, content_type = "application/problem+json"),
+        (status = 422, description = "A member is refused", body = ProblemJson, content_type = "application/problem+json"),
+        (status = 503, description = "Too many runs wait", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn create(State(app): State<AppState>, request: Request) -> Result<Response, Problem> {
@@ -56,7 +56,7 @@ pub async fn list(State(app): State<AppState>) -> Json<ExecutionList> {
     get, path = "/v1/executions/{id}", tag = "executions", params(("id" = String, Path, description = "The run's id")),
     responses(
         (status = 200, description = "The run", body = ExecutionJson),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn get(
@@ -71,8 +71,8 @@ pub async fn get(
     post, path = "/v1/executions/{id}/cancel", tag = "executions", params(("id" = String, Path, description = "The run's id")),
     responses(
         (status = 202, description = "Asked to stop", body = ExecutionJson),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
-        (status = 409, description = "It is over", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run", body = ProblemJson, content_type = "application/problem+json"),
+        (status = 409, description = "It is over", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn cancel(

@@ -6,7 +6,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::off_thread;
-use crate::api::problem::Problem;
+use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 use crate::api::store::replace;
 
@@ -33,7 +33,7 @@ pub async fn live(State(app): State<AppState>) -> Json<Health> {
     get, path = "/readyz", tag = "health",
     responses(
         (status = 200, description = "Ready", body = Health),
-        (status = 503, description = "Something is missing; detail names every cause", body = Problem, content_type = "application/problem+json"),
+        (status = 503, description = "Something is missing; detail names every cause", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn ready(State(app): State<AppState>) -> Result<Json<Health>, Problem> {
@@ -42,7 +42,7 @@ pub async fn ready(State(app): State<AppState>) -> Result<Json<Health>, Problem>
         causes.push(format!("predictions: {cause}"));
     }
     let probe = app.config.data_dir.join(".ready");
-    if let Err(error) = off_thread(move || Ok(replace(&probe, b"")?)).await.map_err(|p| p.detail) {
+    if let Err(error) = off_thread(move || Ok(replace(&probe, b"")?)).await.map_err(|p| p.detail.clone()) {
         causes.push(error);
     }
     if causes.is_empty() {

@@ -10,7 +10,7 @@ use base64::engine::general_purpose::STANDARD;
 use super::executions::find;
 use super::json_bytes;
 use crate::api::extract::PathParam;
-use crate::api::problem::Problem;
+use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 use crate::api::wire::ExecutionImages;
 
@@ -23,8 +23,8 @@ const MOST_IMAGES: usize = crate::plan::MAX_PHOTOS;
     get, path = "/v1/executions/{id}/images", tag = "executions", params(("id" = String, Path, description = "The run's id")),
     responses(
         (status = 200, description = "Photos in the order taken", body = ExecutionImages),
-        (status = 404, description = "No such run", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "More than five photos: fetch them one by one", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run", body = ProblemJson, content_type = "application/problem+json"),
+        (status = 422, description = "More than five photos: fetch them one by one", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn list(
@@ -50,7 +50,7 @@ pub async fn list(
     params(("id" = String, Path, description = "The run's id"), ("view" = u32, Path, description = "The view's id")),
     responses(
         (status = 200, description = "PNG", content_type = "image/png"),
-        (status = 404, description = "No such run, or the view is not taken (yet)", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or the view is not taken (yet)", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn get(
@@ -72,7 +72,7 @@ pub async fn get(
     get, path = "/v1/executions/{id}/transforms.json", tag = "executions", params(("id" = String, Path, description = "The run's id")),
     responses(
         (status = 200, description = "transforms.json; file paths are relative to the run's directory", content_type = "application/json"),
-        (status = 404, description = "No such run, or it is not over yet", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such run, or it is not over yet", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn transforms(

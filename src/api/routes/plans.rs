@@ -7,7 +7,7 @@ use axum::response::Response;
 
 use super::{json_bytes, off_thread};
 use crate::api::extract::{JsonBody, PathParam};
-use crate::api::problem::Problem;
+use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 use crate::api::wire::{PlanAnswer, PlanList, PlanRequestJson};
 
@@ -20,11 +20,11 @@ use crate::api::wire::{PlanAnswer, PlanList, PlanRequestJson};
     responses(
         (status = 201, description = "Computed and stored", body = PlanAnswer),
         (status = 200, description = "Stored before; the same bytes", body = PlanAnswer),
-        (status = 400, description = "No JSON", body = Problem, content_type = "application/problem+json"),
-        (status = 413, description = "Body over 32 MiB", body = Problem, content_type = "application/problem+json"),
-        (status = 415, description = "Not application/json", body = Problem, content_type = "application/problem+json"),
-        (status = 422, description = "A member is refused: field, value and bound tell", body = Problem, content_type = "application/problem+json"),
-        (status = 503, description = "Overloaded, or images were given and there is no model", body = Problem, content_type = "application/problem+json"),
+        (status = 400, description = "No JSON", body = ProblemJson, content_type = "application/problem+json"),
+        (status = 413, description = "Body over 32 MiB", body = ProblemJson, content_type = "application/problem+json"),
+        (status = 415, description = "Not application/json", body = ProblemJson, content_type = "application/problem+json"),
+        (status = 422, description = "A member is refused: field, value and bound tell", body = ProblemJson, content_type = "application/problem+json"),
+        (status = 503, description = "Overloaded, or images were given and there is no model", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn create(State(app): State<AppState>, request: Request) -> Result<Response, Problem> {
@@ -65,7 +65,7 @@ pub async fn list(State(app): State<AppState>) -> Result<Json<PlanList>, Problem
     get, path = "/v1/plans/{id}", tag = "plans", params(("id" = String, Path, description = "The plan's id")),
     responses(
         (status = 200, description = "The plan", body = PlanAnswer),
-        (status = 404, description = "No such plan", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such plan", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn get(State(app): State<AppState>, PathParam(id): PathParam<String>) -> Result<Response, Problem> {

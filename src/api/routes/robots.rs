@@ -4,7 +4,7 @@ use axum::Json;
 
 use crate::api::convert;
 use crate::api::extract::PathParam;
-use crate::api::problem::Problem;
+use crate::api::problem::{Problem, ProblemJson};
 use crate::api::wire::{RobotDetails, RobotSummary};
 use crate::robot::RobotModel;
 
@@ -19,7 +19,7 @@ pub async fn list() -> Json<Vec<RobotSummary>> {
     get, path = "/v1/robots/{model}", tag = "robots", params(("model" = String, Path, description = "A name of the list")),
     responses(
         (status = 200, description = "Joints, limits, sources", body = RobotDetails),
-        (status = 404, description = "No such robot", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "No such robot", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn get(PathParam(model): PathParam<String>) -> Result<Json<RobotDetails>, Problem> {

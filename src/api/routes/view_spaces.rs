@@ -7,7 +7,7 @@ use utoipa::IntoParams;
 
 use crate::api::convert;
 use crate::api::extract::{PathParam, QueryParams};
-use crate::api::problem::Problem;
+use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 use crate::api::wire::{ViewSpaceAnswer, ViewSpaceJson, ViewSpaceView};
 use crate::geometry::{Point, azimuth_elevation_from_direction};
@@ -32,7 +32,7 @@ pub struct ViewSpaceQuery {
     params(("n" = u32, Path, description = "Number of views, 1 to 200"), ViewSpaceQuery),
     responses(
         (status = 200, description = "Directions and poses for an object at the origin", body = ViewSpaceAnswer),
-        (status = 422, description = "A parameter is refused", body = Problem, content_type = "application/problem+json"),
+        (status = 422, description = "A parameter is refused", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn get(

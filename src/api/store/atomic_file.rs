@@ -7,15 +7,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 static COUNTER: AtomicU64 = AtomicU64::new(0);
 
-/// Writes `bytes` to a file of its own beside `path` and syncs it.
-fn write_beside(path: &Path, bytes: &[u8]) -> io::Result<PathBuf> {
+/// Writes `bytes` to a file of its own beside `path`.
+fn write_beside(path: &Path, bytes: &[u8]) -> io::Result<(PathBuf, File)> {
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     let number = COUNTER.fetch_add(1, Ordering::Relaxed);
     let temporary = path.with_file_name(format!(".{name}.{}.{number}", std::process::id()));
     let mut file = File::create(&temporary)?;
     file.write_all(bytes)?;
-    file.sync_all()?;
-    Ok(temporary)
+    Ok((temporary, file))
 }
 
 /// A rename is durable once its directory is synced.
@@ -26,14 +25,38 @@ fn sync_directory(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Puts `bytes` at `path`, whatever was there.
+/// Puts `bytes` at `path`, whatever was there, safe from a power cut on return.
 ///
 /// # Errors
 /// Those of the file system.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let temporary = write_beside(path, bytes)?;
+    let (temporary, file) = write_beside(path, bytes)?;
+    file.sync_all()?;
     fs::rename(&temporary, path)?;
     sync_directory(path)
+}
+
+/// As [`replace`], safe from the end of the process only: a sync takes up to a second on a busy disk.
+///
+/// # Errors
+/// Those of the file system.
+pub fn replace_unsynced(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let (temporary, _) = write_beside(path, bytes)?;
+    fs::rename(&temporary, path)
+}
+
+/// Makes every file of `directory` safe from a power cut.
+///
+/// # Errors
+/// Those of the file system.
+pub fn sync_files(directory: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(directory)? {
+        let path = entry?.path();
+        if path.is_file() {
+            File::open(path)?.sync_all()?;
+        }
+    }
+    File::open(directory)?.sync_all()
 }
 
 /// Puts `bytes` at `path` unless a file is there; returns what is there afterwards and whether it
@@ -42,7 +65,8 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// Those of the file system.
 pub fn create_once(path: &Path, bytes: Vec<u8>) -> io::Result<(Vec<u8>, bool)> {
-    let temporary = write_beside(path, &bytes)?;
+    let (temporary, file) = write_beside(path, &bytes)?;
+    file.sync_all()?;
     let linked = fs::hard_link(&temporary, path);
     fs::remove_file(&temporary)?;
     match linked {

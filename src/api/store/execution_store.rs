@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use super::{is_id, replace};
-use crate::api::wire::{CameraJson, ExecutionJson, PoseJson};
+use super::{is_id, replace, replace_unsynced, sync_files};
+use crate::api::wire::{CameraJson, ExecutionJson, ExecutionStateJson, PoseJson};
 
 /// All that is known about a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -61,13 +61,20 @@ impl ExecutionStore {
         }
     }
 
-    /// Writes the record.
+    /// Writes the record; syncs it with all the run's files unless the run is under way.
     ///
     /// # Errors
     /// Those of the file system.
     pub fn save(&self, record: &ExecutionRecord) -> io::Result<()> {
         let bytes = serde_json::to_vec(record).map_err(io::Error::other)?;
-        replace(&self.path(&record.execution.id).join("record.json"), &bytes)
+        let id = &record.execution.id;
+        let path = self.path(id).join("record.json");
+        if record.execution.state == ExecutionStateJson::Running {
+            return replace_unsynced(&path, &bytes);
+        }
+        sync_files(&self.images(id))?;
+        sync_files(&self.path(id))?;
+        replace(&path, &bytes)
     }
 
     /// Every record that can be read, sorted by id; a run without one is left alone.

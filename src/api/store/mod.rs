@@ -5,14 +5,15 @@
 //! plans/<id>.request.json    the canonical request without its images
 //! executions/<id>/record.json, images/<view>.png, transforms.json
 //! ```
-//! Every file is written beside its place, synced and renamed, so that a reader or a crash sees
-//! the whole file or none.
+//! Every file is written beside its place and renamed, so that a reader or a crash sees the whole
+//! file or none. A plan that was answered and a run that is over are synced to the disk; a run under
+//! way is not, since a power cut ends it anyway.
 
 mod atomic_file;
 mod execution_store;
 mod plan_store;
 
-pub use atomic_file::{create_once, replace};
+pub use atomic_file::{create_once, replace, replace_unsynced, sync_files};
 pub use execution_store::{ExecutionRecord, ExecutionStore};
 pub use plan_store::PlanStore;
 
