@@ -85,29 +85,33 @@ where
         };
         // Relative to the first pixel, so that small triangles far from the image's corner stay exact.
         let (ox, oy) = (x0 as f32, y0 as f32);
-        let p = s.map(|[x, y, w]| [f64::from(x - ox), f64::from(y - oy), f64::from(w)]);
-        let mut edges = [[0.0f64; 3]; 3];
-        for (i, edge) in edges.iter_mut().enumerate() {
-            let (from, to) = (p[(i + 1) % 3], p[(i + 2) % 3]);
+        let local = |[x, y, _]: OnScreen| [f64::from(x - ox), f64::from(y - oy)];
+        let edge = |from: [f64; 2], to: [f64; 2]| -> [f64; 3] {
             let (a, b) = (from[1] - to[1], to[0] - from[0]);
-            *edge = [a, b, -(a * from[0] + b * from[1])];
-        }
+            [a, b, -(a * from[0] + b * from[1])]
+        };
+        let [p, q, r] = [local(s[0]), local(s[1]), local(s[2])];
+        let edges = [edge(q, r), edge(r, p), edge(p, q)];
         let twice_area = edges[0][2] + edges[1][2] + edges[2][2];
         if !(twice_area.abs() > 1e-12) {
             return;
         }
-        let flip = twice_area.signum();
         let (columns, rows) = (x1 - x0, y1 - y0);
-        let depth: [f64; 3] = std::array::from_fn(|k| {
-            (edges[0][k] * p[0][2] + edges[1][k] * p[1][2] + edges[2][k] * p[2][2]) / twice_area
+        // Each edge's opposite corner adds its 1/z in proportion to the distance from the edge.
+        let inverse = 1.0 / twice_area;
+        let share = |corner: OnScreen| f64::from(corner[2]) * inverse;
+        let shares = [share(s[0]), share(s[1]), share(s[2])];
+        let depth: [f32; 3] = std::array::from_fn(|k| {
+            (edges[0][k] * shares[0] + edges[1][k] * shares[1] + edges[2][k] * shares[2]) as f32
         });
-        let reach = f64::from(columns.max(rows) + 1);
-        let edges = edges.map(|[a, b, c]| {
+        let (flip, reach) = (twice_area.signum(), f64::from(columns.max(rows) + 1));
+        let widened = |[a, b, c]: [f64; 3]| {
             let slack = 2e-7 * (c.abs() + (a.abs() + b.abs()) * reach);
             [(a * flip) as f32, (b * flip) as f32, (c * flip + slack) as f32]
-        });
-        let depth = depth.map(|v| v as f32);
-        let (nearest, farthest) = (s[0][2].max(s[1][2]).max(s[2][2]), s[0][2].min(s[1][2]).min(s[2][2]));
+        };
+        let edges = [widened(edges[0]), widened(edges[1]), widened(edges[2])];
+        let nearest = most(most(s[0][2], s[1][2]), s[2][2]);
+        let farthest = least(least(s[0][2], s[1][2]), s[2][2]);
         let at_samples = |[a, b, c]: [f32; 3]| -> [f32; N] {
             std::array::from_fn(|i| a * Samples::OFFSETS[i][0] + b * Samples::OFFSETS[i][1] + c)
         };

@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use image::RgbaImage;
 
+use super::cut_out::CutOut;
 use super::light::PreparedLight;
 use super::project::{InCamera, OnScreen, View};
 use super::raster::{NOTHING, Pattern, Samples, Target};
@@ -22,13 +23,19 @@ const MAX_SHADED: u32 = 4;
 /// left out. Can be shared between threads; each image is drawn by the calling thread alone.
 pub struct Renderer {
     positions: Vec<[f32; 3]>,
-    normals: Vec<[f32; 3]>,
-    uvs: Vec<[f32; 2]>,
+    attributes: Vec<Attributes>,
     triangles: Vec<Triangle>,
     surfaces: Vec<Surface>,
     textures: Vec<MipTexture>,
     /// Buffers of finished images, so that the next image need not ask for memory.
     scratch: Mutex<Vec<Scratch>>,
+}
+
+/// What shading reads of a vertex, side by side in memory.
+#[derive(Clone, Copy)]
+struct Attributes {
+    normal: [f32; 3],
+    uv: [f32; 2],
 }
 
 struct Triangle {
@@ -91,7 +98,8 @@ impl Renderer {
             triangles.push(Triangle { corners: *corners, surface: *material, turned: side < 0.0 });
         }
         let Mesh { positions, normals, uvs, .. } = mesh;
-        Self { positions, normals, uvs, triangles, surfaces, textures, scratch: Mutex::default() }
+        let attributes = normals.into_iter().zip(uvs).map(|(normal, uv)| Attributes { normal, uv }).collect();
+        Self { positions, attributes, triangles, surfaces, textures, scratch: Mutex::default() }
     }
 
     /// Triangles that are drawn.
@@ -144,21 +152,17 @@ impl Renderer {
         let mut target =
             Target { origin, size, depth: depth.as_chunks_mut::<N>().0, ids: ids.as_chunks_mut::<N>().0 };
         for (id, triangle) in self.triangles.iter().enumerate() {
-            let corners = triangle.corners.map(|i| i as usize);
-            let screen = corners.map(|i| on_screen[i]);
-            let p = corners.map(|i| in_camera[i]);
+            let [i, j, k] = triangle.corners;
+            let corners = [i as usize, j as usize, k as usize];
+            let [i, j, k] = corners;
+            let (screen, p) =
+                ([on_screen[i], on_screen[j], on_screen[k]], [in_camera[i], in_camera[j], in_camera[k]]);
             let surface = &self.surfaces[triangle.surface as usize];
             match surface.texture {
                 Some(texture) if surface.cutoff > 0.0 => {
-                    let (facet, texture) = (Facet::new(p), &self.textures[texture]);
-                    let uv = corners.map(|i| self.uvs[i]);
-                    // Samples lie closer than pixels, and so may the texels they test.
-                    let scale = 1.0 / (N as f32).sqrt();
-                    let keep = |x: f32, y: f32| {
-                        let hit = facet.hit(view.ray(x, y), view.ray_step());
-                        hit.texture(texture, uv, scale, false)[3] >= surface.cutoff
-                    };
-                    view.straighten(p, screen, |s| target.draw(s, id as u32, keep));
+                    let (texture, uv) = (&self.textures[texture], corners.map(|i| self.attributes[i].uv));
+                    let cut = CutOut::new(view, p, texture, uv, surface.cutoff, 1.0 / (N as f32).sqrt());
+                    view.straighten(p, screen, |s| target.draw(s, id as u32, |x, y| cut.keeps(x, y)));
                 }
                 _ => view.straighten(p, screen, |s| target.draw(s, id as u32, |_, _| true)),
             }
@@ -237,13 +241,16 @@ impl Renderer {
         in_camera: &[InCamera],
     ) -> [f32; 3] {
         let triangle = &self.triangles[id as usize];
-        let corners = triangle.corners.map(|i| i as usize);
+        let [i, j, k] = triangle.corners;
+        let [i, j, k] = [i as usize, j as usize, k as usize];
         let surface = &self.surfaces[triangle.surface as usize];
-        let hit = Facet::new(corners.map(|i| in_camera[i])).hit(ray, step);
-        let brightness = hit.light(light, corners.map(|i| self.normals[i]), triangle.turned);
+        let hit = Facet::new([in_camera[i], in_camera[j], in_camera[k]]).hit(ray, step);
+        let (a, b, c) = (self.attributes[i], self.attributes[j], self.attributes[k]);
+        let brightness = hit.light(light, [a.normal, b.normal, c.normal], triangle.turned);
         let color = surface.color.map(|c| c * brightness);
         let Some(texture) = surface.texture else { return color };
-        let [r, g, b, a] = hit.texture(&self.textures[texture], corners.map(|i| self.uvs[i]), 1.0, alone);
+        let [uv, right, down] = hit.on_texture([a.uv, b.uv, c.uv]);
+        let [r, g, b, a] = self.textures[texture].over_footprint(uv, right, down, alone);
         // The texture's colours carry their alpha; what is drawn is opaque.
         let scale = if a > 1e-3 { 1.0 / a } else { 0.0 };
         [color[0] * r * scale, color[1] * g * scale, color[2] * b * scale]

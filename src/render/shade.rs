@@ -2,7 +2,6 @@
 
 use super::light::PreparedLight;
 use super::project::InCamera;
-use super::texture::MipTexture;
 
 /// A triangle's plane seen from the camera's centre: gives barycentric coordinates of the
 /// point a ray hits, and how they change from pixel to pixel.
@@ -37,6 +36,14 @@ impl Facet {
         Self { u: cross(e2, p), v: cross(p, e1), normal: cross(e1, e2) }
     }
 
+    /// The weights of the second and third corner where a ray meets the facet's plane.
+    #[inline]
+    pub(super) fn weights(&self, ray: [f32; 3]) -> [f32; 2] {
+        let along = dot(self.normal, ray);
+        let inverse = if along.abs() > 1e-30 { 1.0 / along } else { 0.0 };
+        [dot(self.u, ray) * inverse, dot(self.v, ray) * inverse]
+    }
+
     /// `ray` has z = 1; `step` is its change in x and y per pixel.
     #[inline]
     pub(super) fn hit(&self, ray: [f32; 3], step: [f32; 2]) -> Hit {
@@ -58,22 +65,14 @@ impl Facet {
 }
 
 impl Hit {
-    /// The texture at the hit, over the pixel's footprint (see
-    /// [`MipTexture::over_footprint`]).
-    /// `scale` shrinks the footprint, for samples that lie closer than pixels; `blend` as there.
+    /// Texture coordinates at the hit, and their change to the right and lower neighbour pixel.
     #[inline]
-    pub(super) fn texture(
-        &self,
-        texture: &MipTexture,
-        uv: [[f32; 2]; 3],
-        scale: f32,
-        blend: bool,
-    ) -> [f32; 4] {
+    pub(super) fn on_texture(&self, uv: [[f32; 2]; 3]) -> [[f32; 2]; 3] {
         let at =
             |k: usize| self.weights[0] * uv[0][k] + self.weights[1] * uv[1][k] + self.weights[2] * uv[2][k];
         let (a, b) = ([uv[1][0] - uv[0][0], uv[1][1] - uv[0][1]], [uv[2][0] - uv[0][0], uv[2][1] - uv[0][1]]);
-        let change = |d: [f32; 2]| [(a[0] * d[0] + b[0] * d[1]) * scale, (a[1] * d[0] + b[1] * d[1]) * scale];
-        texture.over_footprint([at(0), at(1)], change(self.right), change(self.down), blend)
+        let change = |d: [f32; 2]| [a[0] * d[0] + b[0] * d[1], a[1] * d[0] + b[1] * d[1]];
+        [[at(0), at(1)], change(self.right), change(self.down)]
     }
 
     /// Light at the hit. `normals` are the corners' (world frame); `turned` tells that they

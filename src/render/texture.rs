@@ -70,9 +70,9 @@ impl MipTexture {
         let (a, b) = (texels(du), texels(dv));
         let (major, minor, along) = if a > b { (a, b, du) } else { (b, a, dv) };
         // At grazing angles the footprint is long and thin: several taps along it on a finer level.
-        let taps = (major / minor.max(1e-9) + 0.25).clamp(1.0, MAX_TAPS).floor_fast();
+        let taps = (major / minor.max(1e-9) + 0.25).clamp(1.0, MAX_TAPS) as u32 as f32;
         let level = log2_roughly((major / taps).max(1e-9));
-        let level = if blend { level } else { (level + 0.5).floor_fast() };
+        let level = if blend { level } else { floor(level + 0.5).0 as f32 };
         if !(taps > 1.0) || level <= 0.0 {
             return self.trilinear(uv, level);
         }
@@ -88,11 +88,27 @@ impl MipTexture {
         sum.map(|v| v / taps)
     }
 
+    /// The level for a pixel whose steps on the texture are `du` and `dv`: texels as large as its longer step.
+    pub(super) fn level_for(&self, du: [f32; 2], dv: [f32; 2]) -> usize {
+        let Some(finest) = self.levels.first() else { return 0 };
+        let (w, h) = (finest.width as f32, finest.height as f32);
+        let texels = |d: [f32; 2]| ((d[0] * w).powi(2) + (d[1] * h).powi(2)).sqrt();
+        let level = log2_roughly(texels(du).max(texels(dv)).clamp(1.0, 1e9));
+        ((level + 0.5) as usize).min(self.levels.len() - 1)
+    }
+
+    /// Alpha at a point, on one level.
+    #[inline]
+    pub(super) fn alpha(&self, uv: [f32; 2], level: usize) -> f32 {
+        self.levels.get(level).map_or(1.0, |l| l.bilinear_alpha(uv))
+    }
+
     #[inline]
     fn trilinear(&self, uv: [f32; 2], level: f32) -> [f32; 4] {
         let last = self.levels.len() - 1;
         let level = level.clamp(0.0, last as f32);
-        let (lower, part) = (level as usize, level - level.floor_fast());
+        let lower = level as usize;
+        let part = level - lower as f32;
         let fine = self.levels[lower].bilinear(uv);
         if part < 0.05 || lower == last {
             return fine;
@@ -112,40 +128,44 @@ fn log2_roughly(value: f32) -> f32 {
     exponent as f32 + (mantissa - 1.0) * (1.0 + (2.0 - mantissa) * 0.346_6)
 }
 
-/// Rounding down without a library call (the baseline x86-64 has no instruction for it);
-/// right for numbers within the range of i32, which texture coordinates are (see `Mesh::repair`).
-trait FloorFast {
-    fn floor_fast(self) -> f32;
-}
-
-impl FloorFast for f32 {
-    #[inline]
-    fn floor_fast(self) -> f32 {
-        let t = self as i32 as f32;
-        if t > self { t - 1.0 } else { t }
-    }
+/// The whole number below `x` (or, for a whole `x`, perhaps the one before) and the rest, 0 to 1.
+///
+/// Adding 1.5 x 2^23 leaves the rounded number in the lowest bits: no library call and no check for
+/// numbers out of range, which texture coordinates are not (see `Mesh::repair`).
+#[inline]
+fn floor(x: f32) -> (i32, f32) {
+    const SHIFT: f32 = 12_582_912.0;
+    let shifted = x - 0.5 + SHIFT;
+    let whole = shifted.to_bits().wrapping_sub(SHIFT.to_bits()) as i32;
+    (whole, x - (shifted - SHIFT))
 }
 
 impl Level {
+    /// The four texels about a point, and their shares: top left, top right, bottom left, bottom right.
     #[inline]
-    fn bilinear(&self, uv: [f32; 2]) -> [f32; 4] {
+    fn neighbours(&self, uv: [f32; 2]) -> ([usize; 4], [f32; 4]) {
         let axis = |v: f32, size: usize| {
-            let x = (v - v.floor_fast()) * size as f32 - 0.5;
-            let low = x.floor_fast();
-            let part = x - low;
-            // x lies in [-0.5, size - 0.5], up to rounding: both neighbours may wrap around once.
-            let low = low as i32;
+            let (low, part) = floor(floor(v).1 * size as f32 - 0.5);
+            // low is -1 to size - 1, or size by rounding: both neighbours may wrap around once.
             let a = if low < 0 { size - 1 } else { (low as usize).min(size - 1) };
             let b = if a + 1 == size { 0 } else { a + 1 };
             (a, b, part)
         };
         let (x0, x1, fx) = axis(uv[0], self.width);
         let (y0, y1, fy) = axis(uv[1], self.height);
-        let at = |x: usize, y: usize| self.texels[y * self.width + x];
-        let (t00, t10, t01, t11) = (at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1));
+        let (top, bottom) = (y0 * self.width, y1 * self.width);
         // Shares add up to 1 / 65535: the texels' unit goes with them.
         let (right, left) = (fx * (1.0 / 65535.0), (1.0 - fx) * (1.0 / 65535.0));
-        let [s00, s10, s01, s11] = [left * (1.0 - fy), right * (1.0 - fy), left * fy, right * fy];
+        let shares = [left * (1.0 - fy), right * (1.0 - fy), left * fy, right * fy];
+        ([top + x0, top + x1, bottom + x0, bottom + x1], shares)
+    }
+
+    #[inline]
+    fn bilinear(&self, uv: [f32; 2]) -> [f32; 4] {
+        let (at, shares) = self.neighbours(uv);
+        let [t00, t10, t01, t11] =
+            [self.texels[at[0]], self.texels[at[1]], self.texels[at[2]], self.texels[at[3]]];
+        let [s00, s10, s01, s11] = shares;
         let mut out = [0.0; 4];
         for k in 0..4 {
             out[k] = f32::from(t00[k]) * s00
@@ -154,6 +174,12 @@ impl Level {
                 + f32::from(t11[k]) * s11;
         }
         out
+    }
+
+    #[inline]
+    fn bilinear_alpha(&self, uv: [f32; 2]) -> f32 {
+        let (at, shares) = self.neighbours(uv);
+        (0..4).map(|k| f32::from(self.texels[at[k]][3]) * shares[k]).sum()
     }
 }
 
