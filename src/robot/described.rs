@@ -88,12 +88,16 @@ fn joint_from_row(index: usize, row: &DhRow, warnings: &mut Vec<String>) -> Resu
             RobotModel::ASSUMED_ACCELERATION_RAD_PER_S2,
             "rad/s2",
         ),
+        max_jerk_rad_per_s3: None,
         name,
         continuous: false,
     };
     check_joint(&joint)?;
     Ok(joint)
 }
+
+/// Bounds of jerks taken as meant, rad/s3.
+const JERKS: std::ops::RangeInclusive<f64> = 1e-3..=1e6;
 
 /// Whether a described joint's limits are numbers an arm can have.
 pub(super) fn check_joint(joint: &Joint) -> Result<(), RobotError> {
@@ -115,6 +119,11 @@ pub(super) fn check_joint(joint: &Joint) -> Result<(), RobotError> {
         if !RATES.contains(&value) {
             return refuse(field, value, *RATES.start(), *RATES.end(), "");
         }
+    }
+    if let Some(jerk) = joint.max_jerk_rad_per_s3
+        && !JERKS.contains(&jerk)
+    {
+        return refuse("jerk limit", jerk, *JERKS.start(), *JERKS.end(), "");
     }
     Ok(())
 }

@@ -13,6 +13,8 @@ pub struct Joint {
     pub max_speed_rad_per_s: f64,
     /// Largest acceleration, radians a second squared.
     pub max_acceleration_rad_per_s2: f64,
+    /// Largest jerk, radians a second cubed; `None` where the time law need not bound it.
+    pub max_jerk_rad_per_s3: Option<f64>,
     /// Whether the hardware turns without end. `lower_rad` and `upper_rad`
     /// still bound the plans (two turns each way would wind up the cables).
     pub continuous: bool,

@@ -48,6 +48,7 @@ pub(super) fn model() -> Result<RobotModel, RobotError> {
             upper_rad,
             max_speed_rad_per_s,
             max_acceleration_rad_per_s2,
+            max_jerk_rad_per_s3: None,
             continuous: false,
         })
         .collect();

@@ -67,6 +67,7 @@ mod tests {
             upper_rad,
             max_speed_rad_per_s: 1.0,
             max_acceleration_rad_per_s2: 1.0,
+            max_jerk_rad_per_s3: None,
             continuous: false,
         }
     }

@@ -41,6 +41,7 @@ fn joints(max_speed_deg_per_s: &[f64; 6]) -> Vec<Joint> {
                 upper_rad: bound,
                 max_speed_rad_per_s: speed.to_radians(),
                 max_acceleration_rad_per_s2: RobotModel::ASSUMED_ACCELERATION_RAD_PER_S2,
+                max_jerk_rad_per_s3: None,
                 continuous: false,
             }
         })

@@ -72,6 +72,7 @@ pub(super) fn limits(joint: &urdf_rs::Joint, warnings: &mut Vec<String>) -> Resu
         upper_rad,
         max_speed_rad_per_s,
         max_acceleration_rad_per_s2: RobotModel::ASSUMED_ACCELERATION_RAD_PER_S2,
+        max_jerk_rad_per_s3: None,
         continuous,
     };
     check_joint(&limits)?;
