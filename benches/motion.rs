@@ -8,7 +8,7 @@ use std::time::Duration;
 use common::{median_time, row};
 use nalgebra::{Translation3, UnitQuaternion};
 use prv::geometry::{Point, Pose};
-use prv::motion::{Cell, MotionRequest, ObjectSphere, Order, Roll, SkipReason, ViewOutcome, plan_motion};
+use prv::motion::{Cell, CellObject, MotionRequest, Order, Roll, SkipReason, ViewOutcome, plan_motion};
 use prv::order::{Obstacle, order_points};
 use prv::robot::RobotModel;
 use prv::views::{Band, ViewSpace, tammes};
@@ -27,7 +27,7 @@ fn plan(count: usize, name: &str, roll: Roll) {
     let Ok(robot) = RobotModel::named("ur5e") else { return };
     let mut cell = Cell::new(robot, flange_from_camera);
     let center_in_base = Point::new(0.45, 0.0, 0.1);
-    cell.object = Some(ObjectSphere { center_in_base, radius_m: 0.1 });
+    cell.object = Some(CellObject::sphere(center_in_base, 0.1));
     cell.table_z_m = Some(0.0);
     let Ok(set) = tammes(count, Band::DEFAULT) else { return };
     let space = ViewSpace { center_in_base, radius_m: 0.3, band: Band::DEFAULT };

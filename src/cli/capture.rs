@@ -6,8 +6,11 @@ use image::{DynamicImage, ImageFormat};
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::geometry::{Point, Pose};
 use prv::imaging::{Camera, composite};
+use prv::motion::Timing;
 use prv::order::Obstacle;
-use prv::plan::{Arm, ObjectSphere, Plan, PlanRequest, ViewShell, ViewSource, ViewStatus, make_plan};
+use prv::plan::{
+    Arm, ObjectSphere, Plan, PlanRequest, Surroundings, ViewShell, ViewSource, ViewStatus, make_plan,
+};
 use prv::render::{Mesh, sample_names, sample_object};
 use prv::robot::RobotModel;
 use prv::simulate::{
@@ -103,6 +106,8 @@ fn request(args: &Args) -> Result<PlanRequest, Box<dyn std::error::Error>> {
             flange_from_camera: None,
             start_rad: None,
             free_roll: true,
+            surroundings: Surroundings::default(),
+            timing: Timing::default(),
         }),
     };
     let (width, height) = args.size;
@@ -112,7 +117,7 @@ fn request(args: &Args) -> Result<PlanRequest, Box<dyn std::error::Error>> {
         source,
         photo_poses: None,
         camera: Some(camera),
-        object: Some(ObjectSphere { center_in_base, radius_m: args.radius, table_z_m: None }),
+        object: Some(ObjectSphere { center_in_base, radius_m: args.radius, ..ObjectSphere::ASSUMED }),
         shell: ViewShell {
             radius_m: args.view_radius,
             band: Band::from_degrees(args.min_elevation, args.max_elevation)?,

@@ -4,21 +4,13 @@ use nalgebra::{Translation3, UnitQuaternion};
 
 use super::error::MotionError;
 use super::joints::MAX_JOINTS;
+use super::object::CellObject;
 use super::shape::{is_sound, pose_is_finite};
 use crate::geometry::{Point, Pose, Vector};
 use crate::robot::{LinkShape, RobotModel};
 
 /// Farthest from the base that anything in a cell may lie, metres; more looks like millimetres.
 pub const LARGEST_LENGTH_M: f64 = 100.0;
-
-/// The object to photograph: a sphere that nothing may enter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ObjectSphere {
-    /// Centre in the arm's base frame, metres.
-    pub center_in_base: Point,
-    /// Radius, metres.
-    pub radius_m: f64,
-}
 
 /// A region that nothing of the arm may enter.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,12 +30,14 @@ pub struct Cell {
     pub flange_from_camera: Pose,
     /// Solids fixed to the camera, in the camera frame (see [`d435_body`]).
     pub camera_body: Vec<LinkShape>,
+    /// Solids fixed to the flange beside the camera, in the flange frame.
+    pub tool: Vec<LinkShape>,
     /// The object, if there is one.
-    pub object: Option<ObjectSphere>,
+    pub object: Option<CellObject>,
     /// Height of the table's top in the base frame, metres; it fills everything below.
     /// The base and the link that turns on it are exempt.
     pub table_z_m: Option<f64>,
-    /// Regions nothing may enter.
+    /// Regions nothing that moves may enter; the base may stand in them.
     pub keep_out: Vec<KeepOut>,
     /// Clearance kept from object, table and keep-out regions, metres.
     pub margin_m: f64,
@@ -65,6 +59,7 @@ impl Cell {
             robot,
             flange_from_camera,
             camera_body,
+            tool: Vec::new(),
             object: None,
             table_z_m: None,
             keep_out: Vec::new(),
@@ -94,15 +89,18 @@ impl Cell {
         if let Some(object) = &self.object {
             within("object.center", object.center_in_base.coords.norm(), 0.0)?;
             within("object.radius", object.radius_m, 0.0)?;
+            if !is_sound(&object.solid_in_base()) {
+                return Err(MotionError::NotFinite { field: "object.shape".into() });
+            }
         }
         if let Some(z) = self.table_z_m {
             within("object.table_z", z, -LARGEST_LENGTH_M)?;
         }
         within("margin", self.margin_m, 0.0)?;
         within("self_margin", self.self_margin_m, 0.0)?;
-        for (i, shape) in self.camera_body.iter().enumerate() {
-            if !is_sound(shape) {
-                return Err(MotionError::NotFinite { field: format!("camera_body[{i}]") });
+        for (name, solids) in [("camera_body", &self.camera_body), ("tool", &self.tool)] {
+            if let Some(i) = solids.iter().position(|shape| !is_sound(shape)) {
+                return Err(MotionError::NotFinite { field: format!("{name}[{i}]") });
             }
         }
         for (i, region) in self.keep_out.iter().enumerate() {

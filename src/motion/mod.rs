@@ -14,9 +14,11 @@ mod contact;
 mod detour;
 mod distance;
 mod error;
+mod fixed_overlaps;
 mod joints;
 mod levers;
 mod metric;
+mod object;
 mod plan;
 mod planner;
 mod request;
@@ -31,10 +33,12 @@ mod trapezoid;
 #[cfg(test)]
 mod tests;
 
-pub use cell::{Cell, KeepOut, LARGEST_LENGTH_M, ObjectSphere, d435_body, default_camera_body};
+pub use cell::{Cell, KeepOut, LARGEST_LENGTH_M, d435_body, default_camera_body};
 pub use check::{Violation, check};
 pub use contact::{Contact, ContactKind};
 pub use error::MotionError;
+pub use fixed_overlaps::fixed_overlaps;
+pub use object::{CellObject, ObjectShape};
 pub use plan::{Leg, LegStart, MotionPlan, PlannedView, SkipReason, TrajectoryPoint, ViewOutcome};
 pub use planner::plan_motion;
 pub use request::{MotionRequest, Order, OrderViews, Roll, Timing};

@@ -105,10 +105,10 @@ fn check_request(request: &MotionRequest) -> Result<(), MotionError> {
         }
     }
     let Timing { speed_scale, settle_s, sample_period_s } = request.timing;
-    for (field, value, least, most) in [
-        ("speed_scale", speed_scale, 0.01, 1.0),
-        ("settle_s", settle_s, 0.0, 60.0),
-        ("sample_period_s", sample_period_s, 1e-3, 1.0),
+    for (field, value, (least, most)) in [
+        ("speed_scale", speed_scale, Timing::SPEED_SCALE),
+        ("settle_s", settle_s, Timing::SETTLE_S),
+        ("sample_period_s", sample_period_s, Timing::SAMPLE_PERIOD_S),
     ] {
         // A NaN is in no range.
         if !(least..=most).contains(&value) {

@@ -70,6 +70,15 @@ pub struct Timing {
     pub sample_period_s: f64,
 }
 
+impl Timing {
+    /// Least and most of [`Timing::speed_scale`].
+    pub const SPEED_SCALE: (f64, f64) = (0.01, 1.0);
+    /// Least and most of [`Timing::settle_s`].
+    pub const SETTLE_S: (f64, f64) = (0.0, 60.0);
+    /// Least and most of [`Timing::sample_period_s`].
+    pub const SAMPLE_PERIOD_S: (f64, f64) = (1e-3, 1.0);
+}
+
 impl Default for Timing {
     fn default() -> Self {
         Self { speed_scale: 1.0, settle_s: 0.3, sample_period_s: 0.04 }

@@ -20,6 +20,8 @@ const TOUCH_SAMPLES: usize = 200;
 pub(crate) struct Body {
     name: String,
     link: usize,
+    /// Camera or tool.
+    is_mounted: bool,
     shape: LinkShape,
     core: Core,
     /// Whether `core` is the shape itself.
@@ -31,8 +33,20 @@ pub(crate) struct Body {
 enum Other {
     Body(usize),
     Table(f64),
-    Object(Point, f64),
-    KeepOut(usize),
+    /// A fixed sphere.
+    Ball(usize, Point, f64),
+    /// Any other fixed solid.
+    Fixed(usize),
+}
+
+/// A solid that does not move, in the base frame.
+struct Fixed {
+    kind: ContactKind,
+    name: String,
+    shape: LinkShape,
+    core: Core,
+    /// Whether `core` is the shape itself.
+    exact: bool,
 }
 
 /// A body, what it must keep away from, by how much, and how fast the two can approach.
@@ -49,6 +63,7 @@ pub(crate) struct Scene<'a> {
     pub cell: &'a Cell,
     pub dof: usize,
     bodies: Vec<Body>,
+    fixed: Vec<Fixed>,
     pairs: Vec<Pair>,
 }
 
@@ -66,7 +81,7 @@ impl<'a> Scene<'a> {
         let dof = kinematics.dof().min(MAX_JOINTS);
         let bodies = bodies_of(cell, dof);
         let levers = Levers::new(kinematics);
-        let mut scene = Self { cell, dof, bodies, pairs: Vec::new() };
+        let mut scene = Self { cell, dof, bodies, fixed: fixed_of(cell), pairs: Vec::new() };
         scene.pairs = scene.self_pairs(&levers);
         scene.drop_pairs_that_always_touch();
         let outside = scene.outside_pairs(&levers);
@@ -78,8 +93,9 @@ impl<'a> Scene<'a> {
         let mut pairs = Vec::new();
         for (i, a) in self.bodies.iter().enumerate() {
             for (k, b) in self.bodies.iter().enumerate().skip(i + 1) {
-                let camera_and_neighbour = b.name == CAMERA && a.link + 1 == b.link;
-                if b.link > a.link + 1 || camera_and_neighbour {
+                // What is mounted on the last link does not belong to its joint, as neighbours do.
+                let mounted_and_neighbour = b.is_mounted && a.link + 1 == b.link;
+                if b.link > a.link + 1 || mounted_and_neighbour {
                     let mut levers_m = levers.of_shape(b.link, &b.core);
                     // Joints below both links move them together.
                     levers_m.iter_mut().take(a.link).for_each(|lever| *lever = 0.0);
@@ -123,10 +139,20 @@ impl<'a> Scene<'a> {
         for (body, b) in self.bodies.iter().enumerate() {
             let levers_m = levers.of_shape(b.link, &b.core);
             let mut add = |other| pairs.push(Pair { body, other, margin_m, levers_m });
-            if let Some(object) = &self.cell.object {
-                add(Other::Object(object.center_in_base, object.radius_m));
+            for (i, fixed) in self.fixed.iter().enumerate() {
+                // Where the base stands is no question of the motion.
+                if b.link == 0 && fixed.kind == ContactKind::Obstacle {
+                    continue;
+                }
+                match fixed.shape {
+                    LinkShape::Capsule { from_in_link, to_in_link, radius_m }
+                        if from_in_link == to_in_link =>
+                    {
+                        add(Other::Ball(i, from_in_link, radius_m));
+                    }
+                    _ => add(Other::Fixed(i)),
+                }
             }
-            (0..self.cell.keep_out.len()).for_each(|i| add(Other::KeepOut(i)));
             // The base stands on the table, and the link on it only turns there.
             if let (Some(z), true) = (self.cell.table_z_m, b.link > 1) {
                 add(Other::Table(z));
@@ -163,11 +189,15 @@ impl<'a> Scene<'a> {
                 _ => return f64::INFINITY,
             },
             Other::Table(z) => (a.z.min(b.z) - z, body.exact),
-            Other::Object(center, radius) => (segment_point(a, b, &center) - radius, body.exact),
-            Other::KeepOut(i) => match self.cell.keep_out.get(i) {
-                Some(region) => {
+            Other::Ball(_, center, radius) => (segment_point(a, b, &center) - radius, body.exact),
+            Other::Fixed(i) => match self.fixed.get(i) {
+                Some(fixed) if fixed.exact => {
+                    let Core { a: c, b: d, radius_m } = &fixed.core;
+                    (segment_segment(a, b, c, d) - radius_m, body.exact)
+                }
+                Some(fixed) => {
                     let middle = nalgebra::center(a, b);
-                    let to_middle = shape_point(&Pose::identity(), &region.shape_in_base, &middle);
+                    let to_middle = shape_point(&Pose::identity(), &fixed.shape, &middle);
                     (to_middle - 0.5 * (b - a).norm(), false)
                 }
                 None => return f64::INFINITY,
@@ -186,9 +216,9 @@ impl<'a> Scene<'a> {
                 .get(k)
                 .map_or(f64::INFINITY, |o| shape_shape(&pose, &body.shape, &pose_of(o.link), &o.shape)),
             Other::Table(z) => shape_bottom(&pose, &body.shape) - z,
-            Other::Object(center, radius) => shape_point(&pose, &body.shape, &center) - radius,
-            Other::KeepOut(i) => self.cell.keep_out.get(i).map_or(f64::INFINITY, |region| {
-                shape_shape(&pose, &body.shape, &Pose::identity(), &region.shape_in_base)
+            Other::Ball(_, center, radius) => shape_point(&pose, &body.shape, &center) - radius,
+            Other::Fixed(i) => self.fixed.get(i).map_or(f64::INFINITY, |fixed| {
+                shape_shape(&pose, &body.shape, &Pose::identity(), &fixed.shape)
             }),
         }
     }
@@ -221,8 +251,9 @@ impl<'a> Scene<'a> {
         let (kind, second) = match pair.other {
             Other::Body(k) => (ContactKind::SelfCollision, self.bodies.get(k)?.name.clone()),
             Other::Table(_) => (ContactKind::Table, "table".to_owned()),
-            Other::Object(..) => (ContactKind::Object, "object".to_owned()),
-            Other::KeepOut(i) => (ContactKind::Obstacle, self.cell.keep_out.get(i)?.name.clone()),
+            Other::Ball(i, ..) | Other::Fixed(i) => {
+                self.fixed.get(i).map(|fixed| (fixed.kind, fixed.name.clone()))?
+            }
         };
         let first = self.bodies.get(pair.body)?.name.clone();
         Some(Contact { kind, first, second, depth_m, distance_m: pair.margin_m - depth_m })
@@ -237,13 +268,11 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Name of the camera's bodies.
-const CAMERA: &str = "camera";
-
 fn bodies_of(cell: &Cell, dof: usize) -> Vec<Body> {
-    let body = |name: &str, link: usize, shape: LinkShape| Body {
+    let body = |name: &str, link: usize, is_mounted: bool, shape: LinkShape| Body {
         name: name.to_owned(),
         link,
+        is_mounted,
         core: core(&shape),
         exact: matches!(shape, LinkShape::Capsule { .. }),
         shape,
@@ -251,10 +280,29 @@ fn bodies_of(cell: &Cell, dof: usize) -> Vec<Body> {
     let kinematics = cell.robot.kinematics.as_ref();
     let zero = [0.0; MAX_JOINTS];
     let last_pose = kinematics.link_poses(&zero[..dof]).pop().unwrap_or_default();
-    let last_from_camera = last_pose.inv_mul(&kinematics.forward(&zero[..dof])) * cell.flange_from_camera;
+    let last_from_flange = last_pose.inv_mul(&kinematics.forward(&zero[..dof]));
+    let last_from_camera = last_from_flange * cell.flange_from_camera;
     let links = cell.robot.links.iter().enumerate().flat_map(|(i, link)| {
-        link.shapes.iter().map(move |shape| body(&link.name, i.min(dof), shape.clone()))
+        link.shapes.iter().map(move |shape| body(&link.name, i.min(dof), false, shape.clone()))
     });
-    let camera = cell.camera_body.iter().map(|shape| body(CAMERA, dof, carried_by(&last_from_camera, shape)));
-    links.chain(camera).collect()
+    let mounted = |name, last_from_frame: Pose, solids: &'_ [LinkShape]| -> Vec<Body> {
+        solids.iter().map(|shape| body(name, dof, true, carried_by(&last_from_frame, shape))).collect()
+    };
+    let camera = mounted("camera", last_from_camera, &cell.camera_body);
+    let tool = mounted("tool", last_from_flange, &cell.tool);
+    links.chain(camera).chain(tool).collect()
+}
+
+fn fixed_of(cell: &Cell) -> Vec<Fixed> {
+    let fixed = |kind, name: &str, shape: LinkShape| Fixed {
+        kind,
+        name: name.to_owned(),
+        core: core(&shape),
+        exact: matches!(shape, LinkShape::Capsule { .. }),
+        shape,
+    };
+    let object = cell.object.iter().map(|o| fixed(ContactKind::Object, "object", o.solid_in_base()));
+    let regions =
+        cell.keep_out.iter().map(|k| fixed(ContactKind::Obstacle, &k.name, k.shape_in_base.clone()));
+    object.chain(regions).collect()
 }

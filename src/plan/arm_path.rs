@@ -5,9 +5,11 @@ use std::time::{Duration, Instant};
 
 use super::free_path::{ORDER_BUDGET, free_path, obstacle, path_length, points};
 use super::skip_reason::reason;
-use super::{Arm, CameraPath, PlanError, PlanRequest, Trajectory, TrajectoryPoint, ViewStatus, Warning};
+use super::{
+    Arm, CameraPath, PlanError, PlanRequest, Trajectory, TrajectoryPoint, ViewStatus, Warning, cell,
+};
 use crate::geometry::Pose;
-use crate::motion::{Cell, MotionPlan, MotionRequest, ObjectSphere, Order, Roll, ViewOutcome, plan_motion};
+use crate::motion::{MotionPlan, MotionRequest, Order, Roll, ViewOutcome, plan_motion};
 use crate::order::{OPTIMALITY_TOLERANCE, OrderedPath, order_points};
 
 /// What the arm makes of the views.
@@ -49,6 +51,7 @@ pub(super) fn arm_path(
         start: arm.start_rad.as_deref(),
         roll: if arm.free_roll { Roll::FREE } else { Roll::Fixed },
         order: if end_at_top { Order::AsGiven } else { Order::By(&by_length) },
+        timing: arm.timing,
         ..MotionRequest::new(&cell, &views)
     })?;
     let motion_time = begin.elapsed() - ordering.time();
@@ -76,14 +79,6 @@ pub(super) fn arm_path(
         warnings: Vec::new(),
         timings: vec![("order", order_time), ("motion", motion_time)],
     })
-}
-
-fn cell(request: &PlanRequest, arm: &Arm) -> Cell {
-    let object = request.object();
-    let mut cell = Cell::new(arm.model.clone(), arm.mount());
-    cell.object = Some(ObjectSphere { center_in_base: object.center_in_base, radius_m: object.radius_m });
-    cell.table_z_m = object.table_z_m;
-    cell
 }
 
 fn trajectory(motion: MotionPlan, view_of: impl Fn(usize) -> usize) -> Option<Trajectory> {

@@ -1,6 +1,6 @@
 //! Bounds of a request's numbers, and the usual mistakes behind values outside them.
 
-use super::{Arm, ObjectSphere, PlanError, PlanRequest, ViewSource, Warning, hand_eye, photos};
+use super::{Arm, ObjectSphere, PlanError, PlanRequest, ViewSource, Warning, hand_eye, photos, surroundings};
 use crate::views::MAX_VIEWS;
 
 /// Largest coordinate of the object's centre and of the table, metres: beyond any arm's reach.
@@ -40,6 +40,7 @@ pub fn check(request: &PlanRequest) -> Result<Vec<Warning>, PlanError> {
     warnings.extend(photos::check(request)?);
     if let Some(arm) = &request.arm {
         warnings.extend(check_arm(arm)?);
+        warnings.extend(surroundings::check(request, arm)?);
     }
     Ok(warnings)
 }
@@ -69,6 +70,7 @@ fn check_object(object: &ObjectSphere) -> Result<(), PlanError> {
         length(&format!("object.center[{axis}]"), *value, -FARTHEST_M, FARTHEST_M)?;
     }
     length("object.radius", object.radius_m, OBJECT_RADIUS_M.0, OBJECT_RADIUS_M.1)?;
+    surroundings::check_shape(&object.shape, object.radius_m)?;
     let Some(table_z_m) = object.table_z_m else { return Ok(()) };
     length("object.table_z", table_z_m, -FARTHEST_M, FARTHEST_M)?;
     if object.center_in_base.z < table_z_m {
@@ -121,7 +123,10 @@ fn check_arm(arm: &Arm) -> Result<Vec<Warning>, PlanError> {
 }
 
 /// A length within its bounds; one that would fit if it were millimetres is said to be.
-fn length(field: &str, value: f64, least: f64, most: f64) -> Result<(), PlanError> {
+///
+/// # Errors
+/// `not_finite`, `millimetres` or `out_of_range`, naming `field`, value and bounds.
+pub fn length(field: &str, value: f64, least: f64, most: f64) -> Result<(), PlanError> {
     if !value.is_finite() {
         return Err(PlanError::number("not_finite", field, value, format!("from {least} to {most} m")));
     }

@@ -15,14 +15,16 @@ mod photos;
 mod predict_count;
 mod request;
 mod skip_reason;
+mod surroundings;
 mod trajectory;
 mod view_poses;
 
 pub use answer::{CameraPath, ExpectedView, Plan, PlanView, Reason, ViewCount, ViewStatus, Warning};
-pub use check::check;
+pub use check::{check, length};
 pub use error::{FieldValue, PlanError};
 pub use make_plan::make_plan;
 pub use photos::{MAX_PHOTOS, expected_views};
 pub use predict_count::{CountPrediction, predict_count};
 pub use request::{Arm, ObjectSphere, PlanRequest, ViewShell, ViewSource};
+pub use surroundings::{MAX_KEEP_OUT, MAX_SOLIDS, Surroundings, cell, check_solid};
 pub use trajectory::{Trajectory, TrajectoryPoint};

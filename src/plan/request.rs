@@ -2,8 +2,10 @@
 
 use image::RgbaImage;
 
+use super::Surroundings;
 use crate::geometry::{Point, Pose};
 use crate::imaging::Camera;
+use crate::motion::{ObjectShape, Timing};
 use crate::robot::RobotModel;
 use crate::views::{Band, ViewSpace};
 
@@ -30,6 +32,9 @@ pub struct ObjectSphere {
     pub radius_m: f64,
     /// Height of the table's surface in the base frame, metres.
     pub table_z_m: Option<f64>,
+    /// What of the sphere the object fills, for the arm's collisions; views and the camera's path
+    /// go by the sphere.
+    pub shape: ObjectShape,
 }
 
 /// The shell of views about the object's centre.
@@ -52,6 +57,10 @@ pub struct Arm {
     pub start_rad: Option<Vec<f64>>,
     /// Whether views may turn about their optical axes.
     pub free_roll: bool,
+    /// What stands around it and hangs on its flange.
+    pub surroundings: Surroundings,
+    /// How its motion is timed.
+    pub timing: Timing,
 }
 
 /// A request with all its defaults filled in.
@@ -73,8 +82,12 @@ pub struct PlanRequest {
 
 impl ObjectSphere {
     /// What a request without robot and photos gets when it names no object.
-    pub const ASSUMED: ObjectSphere =
-        ObjectSphere { center_in_base: Point::new(0.0, 0.0, 0.0), radius_m: 0.1, table_z_m: None };
+    pub const ASSUMED: ObjectSphere = ObjectSphere {
+        center_in_base: Point::new(0.0, 0.0, 0.0),
+        radius_m: 0.1,
+        table_z_m: None,
+        shape: ObjectShape::Sphere,
+    };
 }
 
 impl PlanRequest {

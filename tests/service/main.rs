@@ -2,6 +2,7 @@
 
 mod cancel;
 mod capture;
+mod cell_bounds;
 mod determinism;
 mod events;
 mod execution_refusals;
@@ -16,4 +17,6 @@ mod reading;
 mod refusals;
 mod restart;
 mod robots_described;
+mod skip_reasons;
 mod skipped_views;
+mod surroundings;

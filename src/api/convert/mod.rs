@@ -2,14 +2,17 @@
 
 mod answer;
 mod camera;
+mod cell;
 mod images;
 mod object;
 mod pose;
 mod request;
 mod robot;
+mod solid;
 
 pub use answer::{expected_views, plan_answer, timings_json, trajectory, warnings_json};
 pub use camera::{camera, camera_json};
+pub use cell::{surroundings, timing};
 pub use images::{MAX_IMAGE_PIXELS, base64_bytes, images};
 pub use object::object;
 pub use pose::{pose, pose_json};

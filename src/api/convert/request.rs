@@ -1,6 +1,6 @@
 //! Requests.
 
-use super::{camera, images, object, pose, robot};
+use super::{camera, images, object, pose, robot, surroundings, timing};
 use crate::api::problem::Problem;
 use crate::api::wire::{InitialViewsJson, PlanRequestJson, PredictionRequest, RollJson, ViewSpaceJson};
 use crate::plan::{Arm, PlanRequest, ViewShell, ViewSource};
@@ -53,9 +53,15 @@ pub fn plan_request(json: &PlanRequestJson) -> Result<PlanRequest, Problem> {
 
 fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
     let Some(description) = &json.robot else {
-        for (field, given) in
-            [("flange_from_camera", json.flange_from_camera.is_some()), ("start", json.start.is_some())]
-        {
+        for (field, given) in [
+            ("flange_from_camera", json.flange_from_camera.is_some()),
+            ("start", json.start.is_some()),
+            ("keep_out", !json.keep_out.is_empty()),
+            ("camera_body", json.camera_body.is_some()),
+            ("tool", !json.tool.is_empty()),
+            ("margin", json.margin.is_some()),
+            ("timing", json.timing.is_some()),
+        ] {
             if given {
                 return Err(Problem::field("robot_missing", field, "given", "left out without robot"));
             }
@@ -68,6 +74,8 @@ fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
         flange_from_camera: mount,
         start_rad: json.start.clone(),
         free_roll: json.roll == RollJson::Free,
+        surroundings: surroundings(json)?,
+        timing: timing(json.timing.as_ref()),
     }))
 }
 

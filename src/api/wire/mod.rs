@@ -4,6 +4,7 @@
 //! canonical form: the plan id is a hash of it.
 
 mod camera;
+mod cell;
 mod execution;
 mod object;
 mod plan_answer;
@@ -14,11 +15,12 @@ mod robot;
 mod view_space;
 
 pub use camera::CameraJson;
+pub use cell::{BoxJson, CapsuleJson, CylinderJson, KeepOutJson, SolidJson, SphereJson, TimingJson};
 pub use execution::{
     BackgroundJson, CreateExecution, ExecutionImages, ExecutionJson, ExecutionList, ExecutionObject,
     ExecutionStateJson, JointsJson, ObjectSummary, ProgressJson,
 };
-pub use object::ObjectJson;
+pub use object::{ObjectJson, ObjectShapeJson};
 pub use plan_answer::{
     PlanAnswer, PlanList, PlannedView, SkipReason, TrajectoryJson, TrajectoryPointJson, ViewCountJson,
     ViewStatusJson, WarningJson,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::{CameraJson, ObjectJson, PoseJson, RobotJson, ViewSpaceJson};
+use super::{CameraJson, KeepOutJson, ObjectJson, PoseJson, RobotJson, SolidJson, TimingJson, ViewSpaceJson};
 
 /// What to plan. Exactly one of `images`, `view_count` and `views` says how many views.
 ///
@@ -61,6 +61,28 @@ pub struct PlanRequestJson {
     /// Whether a view may be turned about its optical axis; `free` when left out.
     #[serde(default)]
     pub roll: RollJson,
+    /// Regions that nothing of the arm may enter, at most 64. Views that cannot be taken because of
+    /// one are skipped with `obstacle_collision`, which names it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schema(max_items = 64)]
+    pub keep_out: Vec<KeepOutJson>,
+    /// The camera's body in the camera frame, at most 32 solids: replaces the body of a RealSense
+    /// D435 and its bracket, which are assumed when it is left out. An empty list is no body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(max_items = 32)]
+    pub camera_body: Option<Vec<SolidJson>>,
+    /// What else is mounted on the flange, in the flange frame, at most 32 solids.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schema(max_items = 32)]
+    pub tool: Vec<SolidJson>,
+    /// Clearance kept from the object, the table and the keep-out regions in metres, 0 to 0.2;
+    /// 0.01 when left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 0.0, maximum = 0.2)]
+    pub margin: Option<f64>,
+    /// Speed, rest at the views, sampling.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub timing: Option<TimingJson>,
 }
 
 /// Which initial views.

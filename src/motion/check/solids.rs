@@ -8,7 +8,8 @@ use rand_chacha::ChaCha8Rng;
 
 use super::Violation;
 use crate::geometry::{Pose, Vector};
-use crate::motion::cell::Cell;
+use crate::motion::cell::{Cell, KeepOut};
+use crate::motion::object::{CellObject, ObjectShape};
 use crate::motion::plan::{MotionPlan, TrajectoryPoint};
 use crate::robot::LinkShape;
 
@@ -21,6 +22,7 @@ const TOUCH_SAMPLES: usize = 300;
 
 struct Solid {
     name: String,
+    /// The link that carries it; 0 for what does not move.
     link: usize,
     link_from_solid: Pose3,
     shape: SharedShape,
@@ -35,7 +37,8 @@ const FAR_M: f64 = 0.1;
 pub(super) struct Solids<'a> {
     cell: &'a Cell,
     moving: Vec<Solid>,
-    fixed: Vec<Solid>,
+    /// Each with the first link that has to keep away from it.
+    fixed: Vec<(Solid, usize)>,
     /// Indices into `moving`.
     self_pairs: Vec<(usize, usize)>,
 }
@@ -52,24 +55,17 @@ impl<'a> Solids<'a> {
         let last_from_camera =
             base_from_last.inverse() * cell.robot.kinematics.forward(&zero) * cell.flange_from_camera;
         moving.extend(cell.camera_body.iter().map(|s| solid("camera", dof, &last_from_camera, s)));
+        let last_from_flange = base_from_last.inverse() * cell.robot.kinematics.forward(&zero);
+        moving.extend(cell.tool.iter().map(|s| solid("tool", dof, &last_from_flange, s)));
         let identity = Pose::identity();
-        let mut fixed: Vec<Solid> =
-            cell.keep_out.iter().map(|k| solid(&k.name, 0, &identity, &k.shape_in_base)).collect();
+        let region = |k: &KeepOut| (solid(&k.name, 0, &identity, &k.shape_in_base), FROM_LINK.2);
+        let mut fixed: Vec<(Solid, usize)> = cell.keep_out.iter().map(region).collect();
         if let Some(object) = &cell.object {
-            fixed.push(Solid::new(
-                "object",
-                0,
-                Pose3::from_translation(vec3(&object.center_in_base.coords)),
-                SharedShape::new(Ball::new(object.radius_m)),
-            ));
+            fixed.push((object_solid(object), FROM_LINK.1));
         }
         if let Some(z) = cell.table_z_m {
-            fixed.push(Solid::new(
-                TABLE,
-                0,
-                Pose3::translation(0.0, 0.0, z),
-                SharedShape::new(HalfSpace::new(Vec3::new(0.0, 0.0, 1.0))),
-            ));
+            let below = SharedShape::new(HalfSpace::new(Vec3::new(0.0, 0.0, 1.0)));
+            fixed.push((Solid::new("table", 0, Pose3::translation(0.0, 0.0, z), below), FROM_LINK.0));
         }
         let mut solids = Self { cell, moving, fixed, self_pairs: Vec::new() };
         solids.self_pairs = solids.pairs_that_can_part();
@@ -81,7 +77,7 @@ impl<'a> Solids<'a> {
         for (i, a) in self.moving.iter().enumerate() {
             for (k, b) in self.moving.iter().enumerate().skip(i + 1) {
                 let gap = b.link.abs_diff(a.link);
-                if gap >= 2 || (gap == 1 && b.name == "camera") {
+                if gap >= 2 || (gap == 1 && (b.name == "camera" || b.name == "tool")) {
                     candidates.push((i, k));
                 }
             }
@@ -162,7 +158,7 @@ impl<'a> Solids<'a> {
             });
         }
         for a in &self.moving {
-            for b in self.fixed.iter().filter(|b| a.link > 1 || b.name != TABLE) {
+            for (b, _) in self.fixed.iter().filter(|(_, from_link)| a.link >= *from_link) {
                 let distance_m = distance(a, b, &poses);
                 all.push(Measured {
                     first: &a.name,
@@ -176,7 +172,9 @@ impl<'a> Solids<'a> {
     }
 }
 
-const TABLE: &str = "table";
+/// First link that has to keep away from the table, from the object, from keep-out regions: the
+/// base stands on the table and may stand in a region, the link on it only turns there.
+const FROM_LINK: (usize, usize, usize) = (2, 0, 1);
 
 struct Measured<'a> {
     first: &'a str,
@@ -243,6 +241,23 @@ impl Solid {
         let around = (sphere.center, sphere.radius);
         Self { name: name.to_owned(), link, link_from_solid, shape, around }
     }
+}
+
+fn object_solid(object: &CellObject) -> Solid {
+    let at = Pose3::from_translation(vec3(&object.center_in_base.coords));
+    let (pose, shape) = match object.shape {
+        ObjectShape::Sphere => (at, SharedShape::new(Ball::new(object.radius_m))),
+        // parry's cylinder stands along y.
+        ObjectShape::Cylinder { radius_m, height_m } => (
+            at * Pose3::from_rotation(Rot3::from_rotation_x(std::f64::consts::FRAC_PI_2)),
+            SharedShape::new(Cylinder::new(0.5 * height_m, radius_m)),
+        ),
+        ObjectShape::Cuboid { size_m, yaw_rad } => (
+            at * Pose3::from_rotation(Rot3::from_rotation_z(yaw_rad)),
+            SharedShape::new(Cuboid::new(vec3(&(0.5 * size_m)))),
+        ),
+    };
+    Solid::new("object", 0, pose, shape)
 }
 
 fn vec3(v: &Vector) -> Vec3 {

@@ -3,7 +3,7 @@
 use nalgebra::{Translation3, UnitQuaternion};
 
 use crate::geometry::{Point, Pose};
-use crate::motion::{Cell, ObjectSphere, OrderViews};
+use crate::motion::{Cell, CellObject, OrderViews};
 use crate::order::{Obstacle, order_points};
 use crate::robot::RobotModel;
 use crate::views::{Band, ViewSpace, tammes};
@@ -16,7 +16,7 @@ pub fn camera_ahead() -> Pose {
 /// A robot with a 0.1 m object on the table at (x, y).
 pub fn cell(robot: &str, x: f64, y: f64) -> Cell {
     let mut cell = Cell::new(RobotModel::named(robot).unwrap(), camera_ahead());
-    cell.object = Some(ObjectSphere { center_in_base: Point::new(x, y, 0.1), radius_m: 0.1 });
+    cell.object = Some(CellObject::sphere(Point::new(x, y, 0.1), 0.1));
     cell.table_z_m = Some(0.0);
     cell
 }

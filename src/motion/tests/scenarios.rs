@@ -208,7 +208,7 @@ fn the_checker_sees_a_spoilt_plan() {
     let mut blocked = cell.clone();
     let at = good.trajectory[good.trajectory.len() / 2].positions_rad.clone();
     let camera = (cell.robot.kinematics.forward(&at) * cell.flange_from_camera).translation.vector;
-    blocked.object = Some(ObjectSphere { center_in_base: Point::from(camera), radius_m: 0.05 });
+    blocked.object = Some(CellObject::sphere(Point::from(camera), 0.05));
     let request = MotionRequest { cell: &blocked, ..request };
     assert!(check(&request, &good).iter().any(|v| matches!(v, Violation::TooNear { .. })));
 }

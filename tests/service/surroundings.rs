@@ -1,0 +1,91 @@
+//! What stands around the arm changes its plan.
+
+use serde_json::{Value, json};
+
+use crate::harness::{Server, cell, with};
+
+fn planned(plan: &Value) -> usize {
+    plan["order"].as_array().unwrap().len()
+}
+
+fn codes(plan: &Value) -> Vec<&str> {
+    let reasons = plan["views"].as_array().unwrap().iter().filter_map(|view| view["reason"]["code"].as_str());
+    reasons.collect()
+}
+
+#[tokio::test]
+async fn a_slim_object_lets_a_long_tool_by_where_its_sphere_does_not() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    // A flash that stands 0.19 m before the camera: inside the sphere of 0.1 m at a distance of
+    // 0.28 m, but 0.05 m from the axis of a slim object.
+    let mut request = with(
+        cell(),
+        json!({
+            "view_count": 12,
+            "view_space": {"radius": 0.28, "min_elevation_deg": 40.0, "max_elevation_deg": 90.0},
+            "tool": [{"capsule": {"from": [0.0, 0.06, 0.1], "to": [0.0, 0.06, 0.24], "radius": 0.005}}],
+        }),
+    );
+    let round = server.post_json("/v1/plans", &request).await;
+    request["object"]["shape"] = json!({"cylinder": {"radius": 0.02, "height": 0.05}});
+    let slim = server.post_json("/v1/plans", &request).await;
+    assert!(codes(&round).contains(&"object_collision"), "{:?}", codes(&round));
+    assert!(planned(&slim) > planned(&round), "{} and {}", planned(&slim), planned(&round));
+    // Distances and the camera's path go by the sphere.
+    let poses = |plan: &Value| -> Vec<Value> {
+        plan["views"].as_array().unwrap().iter().map(|v| v["pose"]["position"].clone()).collect()
+    };
+    assert_eq!(poses(&slim), poses(&round));
+}
+
+#[tokio::test]
+async fn a_box_as_large_as_a_cylinder_is_in_the_way_as_it_is() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let mut request = with(cell(), json!({"view_count": 10}));
+    request["object"]["shape"] = json!({"box": {"size": [0.1, 0.12, 0.1], "yaw": 0.3}});
+    let plan = server.post_json("/v1/plans", &request).await;
+    assert!(planned(&plan) >= 5, "{:?}", codes(&plan));
+}
+
+#[tokio::test]
+async fn a_region_that_holds_the_base_answers_with_reasons() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let region = json!([{"name": "everywhere", "sphere": {"center": [0.0, 0.0, 0.2], "radius": 3.0}}]);
+    let plan =
+        server.post_json("/v1/plans", &with(cell(), json!({"view_count": 4, "keep_out": region}))).await;
+    assert_eq!(planned(&plan), 0);
+    let blamed = plan["views"].as_array().unwrap().iter().map(|view| &view["reason"]);
+    let blamed: Vec<&Value> = blamed.filter(|reason| reason["code"] != "no_ik").collect();
+    assert!(!blamed.is_empty());
+    for reason in blamed {
+        assert_eq!(reason["code"], "obstacle_collision", "{reason}");
+        assert!(reason["parts"].as_array().unwrap().contains(&json!("everywhere")), "{reason}");
+    }
+    // A pedestal that only the base touches is none of the motion's business.
+    let pedestal =
+        json!([{"name": "pedestal", "box": {"center": [0.0, 0.0, -0.2], "size": [0.3, 0.3, 0.5]}}]);
+    let plan =
+        server.post_json("/v1/plans", &with(cell(), json!({"view_count": 4, "keep_out": pedestal}))).await;
+    assert!(planned(&plan) > 0, "{:?}", codes(&plan));
+    let warned = plan["warnings"].as_array().unwrap().iter().any(|w| w["code"] == "base_in_keep_out");
+    assert!(warned, "{}", plan["warnings"]);
+}
+
+#[tokio::test]
+async fn half_the_speed_and_a_longer_rest_take_as_long_as_they_should() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let request = |timing: Value| with(cell(), json!({"view_count": 6, "timing": timing}));
+    let duration = |plan: &Value| {
+        let points = plan["trajectory"]["points"].as_array().unwrap();
+        points.last().unwrap()["time_from_start"].as_f64().unwrap()
+    };
+    let fast = server.post_json("/v1/plans", &request(json!({"settle": 0.0}))).await;
+    let slow = server.post_json("/v1/plans", &request(json!({"settle": 0.0, "speed_scale": 0.5}))).await;
+    let resting = server.post_json("/v1/plans", &request(json!({"settle": 2.0}))).await;
+    assert!((duration(&slow) - 2.0 * duration(&fast)).abs() < 0.02 * duration(&slow));
+    assert!((duration(&resting) - duration(&fast) - 2.0 * planned(&fast) as f64).abs() < 0.1);
+}
