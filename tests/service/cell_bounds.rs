@@ -90,7 +90,7 @@ async fn numbers_of_the_cell_out_of_their_bounds_are_named() {
             "camera_body[0].sphere.radius",
             "to 2 m",
         ),
-        (around(json!({"margin": 0.3})), "out_of_range", "margin", "from 0 to 0.2 m"),
+        (around(json!({"margin": -0.3})), "out_of_range", "margin", "from 0 to 0.2 m"),
         (around(json!({"margin": 10.0})), "millimetres", "margin", "10 mm are 0.01 m"),
         (
             around(json!({"timing": {"speed_scale": 0.0}})),
