@@ -15,6 +15,7 @@ mod render;
 mod robots;
 mod serve;
 mod views;
+mod views_search;
 
 use std::process::ExitCode;
 

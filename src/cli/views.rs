@@ -1,13 +1,14 @@
 //! `prv views`: directions and poses on a band around an object.
 
 use std::io::Write;
+use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::geometry::{Point, azimuth_elevation_from_direction};
 use prv::views::{Band, MAX_VIEWS, ViewSpace, covering_radius_rad, generate_table, tammes};
 use serde_json::json;
 
-use super::CliResult;
+use super::{CliResult, views_search};
 
 /// Place views around an object, as far apart as they can be.
 ///
@@ -16,7 +17,7 @@ use super::CliResult;
 #[derive(clap::Args)]
 pub struct Args {
     /// Number of views, 1 to 200.
-    #[arg(required_unless_present = "table")]
+    #[arg(required_unless_present_any = ["table", "search"])]
     count: Option<usize>,
     /// Lowest elevation, degrees.
     #[arg(long, env = "PRV_MIN_ELEVATION", default_value_t = 5.0, allow_hyphen_values = true)]
@@ -46,10 +47,20 @@ pub struct Args {
     /// Instead, generate the table of sets for the default band (minutes) and print it.
     #[arg(long, env = "PRV_TABLE", conflicts_with = "count")]
     table: bool,
+    /// Instead, search this band for better sets of 3 to 100 views, a line a round appended to this
+    /// file; rounds it holds already are not run again.
+    #[arg(long, env = "PRV_SEARCH", conflicts_with = "count")]
+    search: Option<PathBuf>,
+    /// Rounds of the search, some seconds a set each.
+    #[arg(long, env = "PRV_ROUNDS", default_value_t = 1, requires = "search")]
+    rounds: u16,
 }
 
 /// Runs the placement.
 pub fn run(args: &Args) -> CliResult {
+    if let Some(file) = &args.search {
+        return views_search::run(file, (args.min_elevation, args.max_elevation), args.rounds);
+    }
     if args.table {
         return print_table();
     }

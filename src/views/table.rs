@@ -24,6 +24,11 @@ pub(super) fn look_up(n: usize) -> Option<Vec<Direction>> {
     if head.split(' ').next()?.parse() != Ok(n) {
         return None;
     }
+    directions(coordinates).filter(|found| found.len() == n)
+}
+
+/// The directions of a line's coordinates, the pole first.
+pub(super) fn directions(coordinates: &str) -> Option<Vec<Direction>> {
     let rim = Band::DEFAULT.heights().0;
     let mut directions = vec![Vector::z_axis()];
     let mut numbers = coordinates.split_ascii_whitespace();
@@ -36,7 +41,17 @@ pub(super) fn look_up(n: usize) -> Option<Vec<Direction>> {
             if z < rim + AT_RIM { (rim, ((1.0 - rim * rim) / horizontal).sqrt()) } else { (z, 1.0) };
         directions.push(Direction::new_normalize(Vector::new(x * scale, y * scale, z)));
     }
-    (directions.len() == n).then_some(directions)
+    Some(directions)
+}
+
+/// The coordinates of all `directions` but the first, each after a space.
+pub(super) fn coordinates(directions: &[Direction]) -> String {
+    let mut text = String::new();
+    for direction in directions.iter().skip(1) {
+        // Writing to a string cannot fail.
+        let _ = write!(text, " {} {}", (direction.x / UNIT).round(), (direction.y / UNIT).round());
+    }
+    text
 }
 
 /// Generates the table's lines anew (minutes), handing over each with the number of its views; 0
@@ -51,14 +66,10 @@ pub fn generate_table<E>(mut line: impl FnMut(usize, &str) -> Result<(), E>) -> 
     )?;
     for n in 1..=MAX_VIEWS {
         let [quick, set] =
-            pack_for(n, Band::DEFAULT, [Effort::INTERACTIVE, Effort::THOROUGH]).map(ViewSet::from_directions);
+            pack_for(n, Band::DEFAULT, [Effort::INTERACTIVE, Effort::THOROUGH], 0).map(ViewSet::from_directions);
         let share = quick.separation_rad / set.separation_rad;
-        let mut text = format!("{n} {:.7} {share:.6} |", set.separation_rad.to_degrees());
-        for direction in &set.directions[1..] {
-            // Writing to a string cannot fail.
-            let _ = write!(text, " {} {}", (direction.x / UNIT).round(), (direction.y / UNIT).round());
-        }
-        line(n, &text)?;
+        let (separation_deg, coordinates) = (set.separation_rad.to_degrees(), coordinates(&set.directions));
+        line(n, &format!("{n} {separation_deg:.7} {share:.6} |{coordinates}"))?;
     }
     Ok(())
 }

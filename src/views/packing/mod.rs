@@ -52,6 +52,9 @@ impl Effort {
     /// Some seconds: for tables.
     pub(super) const THOROUGH: Effort =
         Effort { pair_evaluations: 700_000_000, min_starts: 20, max_starts: 800 };
+    /// One round of a long search.
+    pub(super) const ROUND: Effort =
+        Effort { pair_evaluations: 1_000_000_000, min_starts: 20, max_starts: 800 };
 }
 
 /// What refining a set costs beside a pair evaluation, per square of the number of points.
@@ -61,7 +64,12 @@ const PROMISING: f64 = 0.985;
 
 /// `n >= 1` points of `band`, the first fixed at its top.
 pub(super) fn pack(n: usize, band: Band, effort: Effort) -> Vec<Direction> {
-    let [points] = pack_for(n, band, [effort]);
+    pack_series(n, band, effort, 0)
+}
+
+/// As [`pack`], with other random draws for each `series`; 0 holds those of [`pack`].
+pub(super) fn pack_series(n: usize, band: Band, effort: Effort, series: u16) -> Vec<Direction> {
+    let [points] = pack_for(n, band, [effort], series);
     points
 }
 
@@ -69,7 +77,12 @@ pub(super) fn pack(n: usize, band: Band, effort: Effort) -> Vec<Direction> {
 ///
 /// Half of the attempts start at random; the other half move a few points of the best set so far,
 /// which keeps the parts of it that are already good.
-pub(super) fn pack_for<const K: usize>(n: usize, band: Band, efforts: [Effort; K]) -> [Vec<Direction>; K] {
+pub(super) fn pack_for<const K: usize>(
+    n: usize,
+    band: Band,
+    efforts: [Effort; K],
+    series: u16,
+) -> [Vec<Direction>; K] {
     let region = Region::of(band);
     let mut best: Vec<Vector> = vec![region.top];
     let mut best_square = 0.0;
@@ -79,7 +92,9 @@ pub(super) fn pack_for<const K: usize>(n: usize, band: Band, efforts: [Effort; K
         // Few points have few arrangements.
         let most = if n < 2 { 0 } else { effort.max_starts.min(STARTS_PER_POINT * n) };
         while attempt < most && (attempt < effort.min_starts || spent < effort.pair_evaluations) {
-            let mut rng = ChaCha8Rng::seed_from_u64(((n as u64) << 32) | attempt as u64);
+            let mut rng = ChaCha8Rng::seed_from_u64(
+                (u64::from(series) << 48) | ((n as u64) << 32) | attempt as u64,
+            );
             let disturb = attempt >= FIRST_RANDOM && attempt % 2 == 1 && best.len() == n;
             let begin = if disturb {
                 start::disturbed(&best, &region, &mut rng)
