@@ -6,10 +6,11 @@ use image::{DynamicImage, ImageFormat};
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::geometry::{Point, Pose};
 use prv::imaging::{Camera, composite};
-use prv::motion::Timing;
+use prv::motion::{Roll, Timing};
 use prv::order::Obstacle;
 use prv::plan::{
-    Arm, ObjectSphere, Plan, PlanRequest, Surroundings, ViewShell, ViewSource, ViewStatus, make_plan,
+    Arm, ObjectSphere, Plan, PlanRequest, Surroundings, UnreachableViews, ViewShell, ViewSource, ViewStatus,
+    make_plan,
 };
 use prv::render::{Mesh, sample_names, sample_object};
 use prv::robot::RobotModel;
@@ -105,9 +106,10 @@ fn request(args: &Args) -> Result<PlanRequest, Box<dyn std::error::Error>> {
             model: RobotModel::named(name)?,
             flange_from_camera: None,
             start_rad: None,
-            free_roll: true,
             surroundings: Surroundings::default(),
             timing: Timing::default(),
+            roll: Roll::FREE,
+            unreachable_views: UnreachableViews::default(),
         }),
     };
     let (width, height) = args.size;

@@ -73,7 +73,7 @@ pub(crate) fn candidates(
 /// A solution turned into the model's limits, which a request may have
 /// narrowed below those that the kinematics know; or the joint that breaks
 /// its limit most, and by how much.
-fn within_limits(scene: &Scene, solution: &[f64]) -> Result<Joints, (SkipReason, f64)> {
+pub(crate) fn within_limits(scene: &Scene, solution: &[f64]) -> Result<Joints, (SkipReason, f64)> {
     let mut joints = joints_from(solution);
     let mut worst: Option<(SkipReason, f64)> = None;
     for (joint, q) in scene.cell.robot.joints.iter().zip(&mut joints) {

@@ -16,12 +16,38 @@ pub struct Plan {
     pub path: CameraPath,
     /// The arm's motion; `None` without arm.
     pub trajectory: Option<Trajectory>,
+    /// How well the set covers its band; `None` without arm and for initial views.
+    pub coverage: Option<CoverageReport>,
     /// Poses from which photos are expected; `None` when none were used.
     pub expected: Option<Vec<ExpectedView>>,
     /// What the caller should know although the plan is usable.
     pub warnings: Vec<Warning>,
     /// Time spent by step. The one member that differs between two runs.
     pub timings: Vec<(&'static str, Duration)>,
+}
+
+/// How well views cover their band.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coverage {
+    /// Number of views.
+    pub views: usize,
+    /// Least angle between two of them, radians; pi for fewer than two.
+    pub separation_rad: f64,
+    /// Largest angle from a direction of the band, reachable or not, to its nearest view, radians;
+    /// pi without views.
+    pub largest_hole_rad: f64,
+}
+
+/// What adapting a set to the arm changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoverageReport {
+    /// The Tammes set without the views that cannot be reached.
+    pub before: Coverage,
+    /// The views planned.
+    pub after: Coverage,
+    /// Part of the band's area that can be reached, 0 to 1; `None` where every view of the Tammes
+    /// set could be and the band was not looked at.
+    pub reachable_fraction: Option<f64>,
 }
 
 /// The number of views.

@@ -5,11 +5,9 @@ use std::time::{Duration, Instant};
 
 use super::free_path::{ORDER_BUDGET, free_path, obstacle, path_length, points};
 use super::skip_reason::reason;
-use super::{
-    Arm, CameraPath, PlanError, PlanRequest, Trajectory, TrajectoryPoint, ViewStatus, Warning, cell,
-};
-use crate::geometry::Pose;
-use crate::motion::{MotionPlan, MotionRequest, Order, Roll, ViewOutcome, plan_motion};
+use super::{Arm, CameraPath, PlanError, PlanRequest, Trajectory, TrajectoryPoint, ViewStatus, Warning};
+use crate::geometry::{Direction, Pose};
+use crate::motion::{Cell, MotionPlan, MotionRequest, Order, ViewOutcome, plan_motion};
 use crate::order::{OPTIMALITY_TOLERANCE, OrderedPath, order_points};
 
 /// What the arm makes of the views.
@@ -17,6 +15,8 @@ pub(super) struct ArmPath {
     pub(super) statuses: Vec<ViewStatus>,
     /// With the roll that was chosen.
     pub(super) poses: Vec<Pose>,
+    /// Where the views of a set stand, seen from the object.
+    pub(super) directions: Option<Vec<Direction>>,
     pub(super) path: CameraPath,
     pub(super) trajectory: Option<Trajectory>,
     pub(super) warnings: Vec<Warning>,
@@ -31,11 +31,11 @@ pub(super) struct ArmPath {
 pub(super) fn arm_path(
     request: &PlanRequest,
     arm: &Arm,
+    cell: &Cell,
     poses: &[Pose],
     end_at_top: bool,
 ) -> Result<ArmPath, PlanError> {
     let begin = Instant::now();
-    let cell = cell(request, arm);
     let ordering = Ordering { request, poses, last: RefCell::new(None) };
     let by_length = |kept: &[usize], first: usize| ordering.order(kept, first);
     // Initial views are few: their order is fixed beforehand, and the unreachable ones fall out.
@@ -49,10 +49,10 @@ pub(super) fn arm_path(
     let views: Vec<Pose> = listed.iter().filter_map(|view| poses.get(*view).copied()).collect();
     let motion = plan_motion(&MotionRequest {
         start: arm.start_rad.as_deref(),
-        roll: if arm.free_roll { Roll::FREE } else { Roll::Fixed },
+        roll: arm.roll,
         order: if end_at_top { Order::AsGiven } else { Order::By(&by_length) },
         timing: arm.timing,
-        ..MotionRequest::new(&cell, &views)
+        ..MotionRequest::new(cell, &views)
     })?;
     let motion_time = begin.elapsed() - ordering.time();
     // From here on everything is in the numbering of `poses`.
@@ -74,6 +74,7 @@ pub(super) fn arm_path(
     Ok(ArmPath {
         statuses,
         poses: rolled,
+        directions: None,
         path,
         trajectory: trajectory(motion, view_of),
         warnings: Vec::new(),

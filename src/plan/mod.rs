@@ -4,6 +4,7 @@
 //! Tammes set, poses, global path; with an arm, joint motion through the poses. No HTTP and no
 //! JSON here. Errors name the member to blame in the words of the request (`object.radius`).
 
+mod adapt_views;
 mod answer;
 mod arm_path;
 mod check;
@@ -19,12 +20,15 @@ mod surroundings;
 mod trajectory;
 mod view_poses;
 
-pub use answer::{CameraPath, ExpectedView, Plan, PlanView, Reason, ViewCount, ViewStatus, Warning};
+pub use answer::{
+    CameraPath, Coverage, CoverageReport, ExpectedView, Plan, PlanView, Reason, ViewCount, ViewStatus,
+    Warning,
+};
 pub use check::{check, length};
 pub use error::{FieldValue, PlanError};
 pub use make_plan::make_plan;
 pub use photos::{MAX_PHOTOS, expected_views};
 pub use predict_count::{CountPrediction, predict_count};
-pub use request::{Arm, ObjectSphere, PlanRequest, ViewShell, ViewSource};
+pub use request::{Arm, ObjectSphere, PlanRequest, UnreachableViews, ViewShell, ViewSource};
 pub use surroundings::{MAX_KEEP_OUT, MAX_SOLIDS, Surroundings, cell, check_solid};
 pub use trajectory::{Trajectory, TrajectoryPoint};

@@ -5,7 +5,7 @@ use image::RgbaImage;
 use super::Surroundings;
 use crate::geometry::{Point, Pose};
 use crate::imaging::Camera;
-use crate::motion::{ObjectShape, Timing};
+use crate::motion::{ObjectShape, Roll, Timing};
 use crate::robot::RobotModel;
 use crate::views::{Band, ViewSpace};
 
@@ -46,6 +46,16 @@ pub struct ViewShell {
     pub band: Band,
 }
 
+/// What becomes of views of a set that the arm cannot reach.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UnreachableViews {
+    /// The set is spread again over the part of the band that can be reached.
+    #[default]
+    Replace,
+    /// They are left out, with their reasons.
+    Skip,
+}
+
 /// The arm that carries the camera.
 #[derive(Clone, Debug)]
 pub struct Arm {
@@ -56,7 +66,9 @@ pub struct Arm {
     /// Joint angles to start from, radians.
     pub start_rad: Option<Vec<f64>>,
     /// Whether views may turn about their optical axes.
-    pub free_roll: bool,
+    pub roll: Roll,
+    /// What becomes of views of a set that it cannot reach.
+    pub unreachable_views: UnreachableViews,
     /// What stands around it and hangs on its flange.
     pub surroundings: Surroundings,
     /// How its motion is timed.

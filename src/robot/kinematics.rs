@@ -16,6 +16,11 @@ pub trait Kinematics: std::fmt::Debug + Send + Sync {
     /// The number of joints.
     fn dof(&self) -> usize;
 
+    /// Whether [`Kinematics::inverse`] is a formula of microseconds rather than a search of milliseconds.
+    fn is_closed_form(&self) -> bool {
+        false
+    }
+
     /// `base_from_flange` at `joints_rad`.
     fn forward(&self, joints_rad: &[f64]) -> Pose;
 

@@ -65,8 +65,8 @@ pub fn generate_table<E>(mut line: impl FnMut(usize, &str) -> Result<(), E>) -> 
         "# Views for elevations 5 to 90 deg, written by `prv views --table`; src/views/table.rs tells the format.",
     )?;
     for n in 1..=MAX_VIEWS {
-        let [quick, set] =
-            pack_for(n, Band::DEFAULT, [Effort::INTERACTIVE, Effort::THOROUGH], 0).map(ViewSet::from_directions);
+        let [quick, set] = pack_for(n, Band::DEFAULT, [Effort::INTERACTIVE, Effort::THOROUGH], 0)
+            .map(ViewSet::from_directions);
         let share = quick.separation_rad / set.separation_rad;
         let (separation_deg, coordinates) = (set.separation_rad.to_degrees(), coordinates(&set.directions));
         line(n, &format!("{n} {separation_deg:.7} {share:.6} |{coordinates}"))?;

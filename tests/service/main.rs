@@ -1,5 +1,6 @@
 //! The service as its users meet it: a real process on a free port. One file a scenario.
 
+mod adapted_views;
 mod cancel;
 mod capture;
 mod cell_bounds;

@@ -12,7 +12,7 @@ fn skipped(plan: &Value) -> Vec<&Value> {
 async fn a_view_out_of_reach_is_skipped_with_its_numbers_and_the_rest_is_planned() {
     let data = tempfile::tempdir().unwrap();
     let server = Server::start(data.path());
-    let mut far = with(cell(), json!({"view_count": 15}));
+    let mut far = with(cell(), json!({"view_count": 15, "roll": "free", "unreachable_views": "skip"}));
     far["object"]["center"] = json!([0.75, 0.0, 0.15]);
     let plan = server.post_json("/v1/plans", &far).await;
     let left_out = skipped(&plan);

@@ -5,10 +5,12 @@ use std::time::Duration;
 
 use super::pose_json;
 use crate::api::wire::{
-    ExpectedPose, PlanAnswer, PlannedView, SkipReason, TrajectoryJson, TrajectoryPointJson, ViewCountJson,
-    ViewStatusJson, WarningJson,
+    CoverageJson, CoverageReportJson, ExpectedPose, PlanAnswer, PlannedView, SkipReason, TrajectoryJson,
+    TrajectoryPointJson, ViewCountJson, ViewStatusJson, WarningJson,
 };
-use crate::plan::{ExpectedView, Plan, PlanView, Trajectory, TrajectoryPoint, ViewStatus, Warning};
+use crate::plan::{
+    Coverage, CoverageReport, ExpectedView, Plan, PlanView, Trajectory, TrajectoryPoint, ViewStatus, Warning,
+};
 
 /// The plan's JSON.
 pub fn plan_answer(id: String, plan: Plan) -> PlanAnswer {
@@ -25,9 +27,23 @@ pub fn plan_answer(id: String, plan: Plan) -> PlanAnswer {
         path_optimal: plan.path.optimal,
         path_lower_bound_m: plan.path.lower_bound_m,
         trajectory: plan.trajectory.map(trajectory_json),
+        coverage: plan.coverage.as_ref().map(coverage_json),
         expected_image_poses: plan.expected.as_deref().map(expected_views),
         warnings: warnings_json(&plan.warnings),
         timings_ms: timings_json(&plan.timings),
+    }
+}
+
+fn coverage_json(report: &CoverageReport) -> CoverageReportJson {
+    let figures = |coverage: &Coverage| CoverageJson {
+        views: coverage.views as u32,
+        separation_deg: coverage.separation_rad.to_degrees(),
+        largest_hole_deg: coverage.largest_hole_rad.to_degrees(),
+    };
+    CoverageReportJson {
+        before: figures(&report.before),
+        after: figures(&report.after),
+        reachable_fraction: report.reachable_fraction,
     }
 }
 

@@ -1,9 +1,14 @@
 //! Requests.
 
+use serde_json::Value;
+
 use super::{camera, images, object, pose, robot, surroundings, timing};
 use crate::api::problem::Problem;
-use crate::api::wire::{InitialViewsJson, PlanRequestJson, PredictionRequest, RollJson, ViewSpaceJson};
-use crate::plan::{Arm, PlanRequest, ViewShell, ViewSource};
+use crate::api::wire::{
+    InitialViewsJson, PlanRequestJson, PredictionRequest, RollJson, UnreachableViewsJson, ViewSpaceJson,
+};
+use crate::motion::Roll;
+use crate::plan::{Arm, PlanRequest, UnreachableViews, ViewShell, ViewSource};
 use crate::views::Band;
 
 /// The shell of views.
@@ -51,7 +56,32 @@ pub fn plan_request(json: &PlanRequestJson) -> Result<PlanRequest, Problem> {
     Ok(PlanRequest { source, photo_poses, camera, object: json.object.as_ref().map(object), shell, arm })
 }
 
+/// The freedom of roll.
+fn roll(json: &PlanRequestJson) -> Result<Roll, Problem> {
+    let bound = format!("from 1 to {}, with roll sampled", Roll::MOST_SAMPLES);
+    match (json.roll, json.roll_samples) {
+        (RollJson::Sampled, Some(samples)) if (1..=Roll::MOST_SAMPLES).contains(&(samples as usize)) => {
+            Ok(Roll::Free { samples: samples as usize })
+        }
+        (RollJson::Sampled, Some(samples)) => {
+            Err(Problem::field("out_of_range", "roll_samples", samples, bound))
+        }
+        (RollJson::Sampled, None) => {
+            Err(Problem::field("missing_member", "roll_samples", Value::Null, bound))
+        }
+        (_, Some(samples)) => Err(Problem::field(
+            "roll_not_sampled",
+            "roll_samples",
+            samples,
+            "left out unless roll is sampled",
+        )),
+        (RollJson::Free, None) => Ok(Roll::FREE),
+        (RollJson::Fixed, None) => Ok(Roll::Fixed),
+    }
+}
+
 fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
+    let roll = roll(json)?;
     let Some(description) = &json.robot else {
         for (field, given) in [
             ("flange_from_camera", json.flange_from_camera.is_some()),
@@ -73,9 +103,13 @@ fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
         model: robot(description)?,
         flange_from_camera: mount,
         start_rad: json.start.clone(),
-        free_roll: json.roll == RollJson::Free,
         surroundings: surroundings(json)?,
         timing: timing(json.timing.as_ref()),
+        roll,
+        unreachable_views: match json.unreachable_views {
+            UnreachableViewsJson::Replace => UnreachableViews::Replace,
+            UnreachableViewsJson::Skip => UnreachableViews::Skip,
+        },
     }))
 }
 

@@ -22,10 +22,10 @@ pub use execution::{
 };
 pub use object::{ObjectJson, ObjectShapeJson};
 pub use plan_answer::{
-    PlanAnswer, PlanList, PlannedView, SkipReason, TrajectoryJson, TrajectoryPointJson, ViewCountJson,
-    ViewStatusJson, WarningJson,
+    CoverageJson, CoverageReportJson, PlanAnswer, PlanList, PlannedView, SkipReason, TrajectoryJson,
+    TrajectoryPointJson, ViewCountJson, ViewStatusJson, WarningJson,
 };
-pub use plan_request::{InitialViewsJson, PlanRequestJson, RollJson};
+pub use plan_request::{InitialViewsJson, PlanRequestJson, RollJson, UnreachableViewsJson};
 pub use pose::PoseJson;
 pub use prediction::{ExpectedPose, PredictionAnswer, PredictionRequest};
 pub use robot::{DhConventionJson, DhRowJson, JointLimitJson, RobotDetails, RobotJson, RobotSummary};

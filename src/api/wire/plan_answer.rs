@@ -30,6 +30,10 @@ pub struct PlanAnswer {
     /// The arm's motion through the views; absent without robot.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trajectory: Option<TrajectoryJson>,
+    /// How well the views cover the band, before and after views that cannot be reached were replaced;
+    /// absent without robot and for initial views.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<CoverageReportJson>,
     /// Poses from which the photos of a prediction are expected, with roll 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected_image_poses: Option<Vec<ExpectedPose>>,
@@ -37,6 +41,32 @@ pub struct PlanAnswer {
     pub warnings: Vec<WarningJson>,
     /// Milliseconds by step. The one member that differs between two computations of one request.
     pub timings_ms: BTreeMap<String, f64>,
+}
+
+/// What became of the set's coverage of its band.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
+#[schema(as = CoverageReport)]
+pub struct CoverageReportJson {
+    /// The Tammes set with the views that cannot be reached merely left out.
+    pub before: CoverageJson,
+    /// The views planned.
+    pub after: CoverageJson,
+    /// Part of the band's area that can be reached, 0 to 1; null where every view of the Tammes set
+    /// can be, so that the band was not looked at.
+    pub reachable_fraction: Option<f64>,
+}
+
+/// How well views cover their band.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
+#[schema(as = Coverage)]
+pub struct CoverageJson {
+    /// Number of views.
+    pub views: u32,
+    /// Smallest angle between two views, degrees; 180 for fewer than two.
+    pub separation_deg: f64,
+    /// Largest angle from any direction of the band, reachable or not, to its nearest view, degrees;
+    /// 180 without views.
+    pub largest_hole_deg: f64,
 }
 
 /// The number of views.

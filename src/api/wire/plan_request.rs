@@ -58,7 +58,8 @@ pub struct PlanRequestJson {
     /// the first view when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<Vec<f64>>,
-    /// Whether a view may be turned about its optical axis; `free` when left out.
+    /// Whether a view may be turned about its optical axis; `fixed`, a level horizon, when left out.
+    /// `free` reaches more views with less motion.
     #[serde(default)]
     pub roll: RollJson,
     /// Regions that nothing of the arm may enter, at most 64. Views that cannot be taken because of
@@ -83,6 +84,15 @@ pub struct PlanRequestJson {
     /// Speed, rest at the views, sampling.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timing: Option<TimingJson>,
+    /// With `roll` `sampled`, and only then: the number of evenly spaced rolls, 1 to 64, of which a
+    /// level horizon is the first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 1, maximum = 64)]
+    pub roll_samples: Option<u32>,
+    /// What becomes of views that the arm cannot reach; `replace` when left out. Initial views are
+    /// never replaced.
+    #[serde(default, skip_serializing_if = "UnreachableViewsJson::is_replace")]
+    pub unreachable_views: UnreachableViewsJson,
 }
 
 /// Which initial views.
@@ -101,9 +111,29 @@ pub enum InitialViewsJson {
 #[serde(rename_all = "snake_case")]
 #[schema(as = Roll)]
 pub enum RollJson {
-    /// Chosen by the planner for least joint motion.
-    #[default]
+    /// Chosen by the planner among 12 for least joint motion.
     Free,
     /// The horizon stays level.
+    #[default]
     Fixed,
+    /// Chosen by the planner among `roll_samples`.
+    Sampled,
+}
+
+/// What becomes of views that the arm cannot reach.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = UnreachableViews)]
+pub enum UnreachableViewsJson {
+    /// As many views as asked for are spread again over the part of the band that can be reached.
+    #[default]
+    Replace,
+    /// They are skipped with their reasons; the others stay where they are.
+    Skip,
+}
+
+impl UnreachableViewsJson {
+    fn is_replace(&self) -> bool {
+        *self == Self::Replace
+    }
 }

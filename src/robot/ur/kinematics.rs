@@ -94,6 +94,10 @@ impl Kinematics for UrKinematics {
         6
     }
 
+    fn is_closed_form(&self) -> bool {
+        true
+    }
+
     fn forward(&self, joints_rad: &[f64]) -> Pose {
         self.chain.forward(joints_rad)
     }

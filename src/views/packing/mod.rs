@@ -92,9 +92,8 @@ pub(super) fn pack_for<const K: usize>(
         // Few points have few arrangements.
         let most = if n < 2 { 0 } else { effort.max_starts.min(STARTS_PER_POINT * n) };
         while attempt < most && (attempt < effort.min_starts || spent < effort.pair_evaluations) {
-            let mut rng = ChaCha8Rng::seed_from_u64(
-                (u64::from(series) << 48) | ((n as u64) << 32) | attempt as u64,
-            );
+            let mut rng =
+                ChaCha8Rng::seed_from_u64((u64::from(series) << 48) | ((n as u64) << 32) | attempt as u64);
             let disturb = attempt >= FIRST_RANDOM && attempt % 2 == 1 && best.len() == n;
             let begin = if disturb {
                 start::disturbed(&best, &region, &mut rng)
