@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::convert;
 use super::problem::Problem;
-use super::wire::{PlanAnswer, PlanRequestJson, PredictionAnswer, PredictionRequest};
+use super::wire::{PlanAnswer, PlanRequestJson, PredictionAnswer, PredictionRequest, ReachabilityAnswer};
 use crate::plan::{self, expected_views, make_plan, predict_count};
 use crate::predict::{Predictor, model_bytes};
 
@@ -88,4 +88,17 @@ impl Planner {
             timings_ms: convert::timings_json(&timings),
         })
     }
+}
+
+/// Answers `POST /v1/reachability`: see [`plan::reachability`].
+///
+/// # Errors
+/// A [`Problem`] for what cannot be asked.
+pub fn reachability_of(
+    json: &PlanRequestJson,
+    elevations: Option<usize>,
+    azimuths: Option<usize>,
+) -> Result<ReachabilityAnswer, Problem> {
+    let request = convert::reachability_request(json)?;
+    Ok(convert::reachability_answer(&plan::reachability(&request, elevations, azimuths)?))
 }

@@ -11,6 +11,7 @@ mod openapi;
 mod order;
 mod plan;
 mod predict;
+mod reach;
 mod render;
 mod robots;
 mod serve;
@@ -52,6 +53,8 @@ enum Command {
     Plan(plan::Args),
     /// Predict how many views an object needs.
     Predict(predict::Args),
+    /// Show which part of the band of views an arm can reach.
+    Reach(reach::Args),
     /// Render an object.
     Render(render::Args),
     /// List the built-in robots, their limits and the sources of their numbers.
@@ -81,6 +84,7 @@ pub fn run() -> ExitCode {
         Command::Order(args) => order::run(&args),
         Command::Plan(args) => plan::run(&args),
         Command::Predict(args) => predict::run(&args),
+        Command::Reach(args) => reach::run(&args),
         Command::Render(args) => render::run(&args),
         Command::Robots(args) => robots::run(&args),
         Command::Serve(args) => serve::run(&args),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::geometry::{Point, azimuth_elevation_from_direction};
-use prv::views::{Band, MAX_VIEWS, ViewSpace, covering_radius_rad, generate_table, tammes};
+use prv::views::{Band, MAX_VIEWS, ViewSpace, best_known_rad, covering_radius_rad, generate_table, tammes};
 use serde_json::json;
 
 use super::{CliResult, views_search};
@@ -17,7 +17,7 @@ use super::{CliResult, views_search};
 #[derive(clap::Args)]
 pub struct Args {
     /// Number of views, 1 to 200.
-    #[arg(required_unless_present_any = ["table", "search"])]
+    #[arg(required_unless_present_any = ["table", "search", "summary", "improve"])]
     count: Option<usize>,
     /// Lowest elevation, degrees.
     #[arg(long, env = "PRV_MIN_ELEVATION", default_value_t = 5.0, allow_hyphen_values = true)]
@@ -51,6 +51,12 @@ pub struct Args {
     /// file; rounds it holds already are not run again.
     #[arg(long, env = "PRV_SEARCH", conflicts_with = "count")]
     search: Option<PathBuf>,
+    /// Instead, print the best separation that such a file holds for each band and number of views.
+    #[arg(long, env = "PRV_SUMMARY", conflicts_with_all = ["count", "search"])]
+    summary: Option<PathBuf>,
+    /// Instead, print the table of sets improved by those of such a file.
+    #[arg(long, env = "PRV_IMPROVE", conflicts_with_all = ["count", "search", "table", "summary"])]
+    improve: Option<PathBuf>,
     /// Rounds of the search, some seconds a set each.
     #[arg(long, env = "PRV_ROUNDS", default_value_t = 1, requires = "search")]
     rounds: u16,
@@ -60,6 +66,12 @@ pub struct Args {
 pub fn run(args: &Args) -> CliResult {
     if let Some(file) = &args.search {
         return views_search::run(file, (args.min_elevation, args.max_elevation), args.rounds);
+    }
+    if let Some(file) = &args.summary {
+        return views_search::summary(file);
+    }
+    if let Some(file) = &args.improve {
+        return views_search::improve(file);
     }
     if args.table {
         return print_table();
@@ -77,6 +89,7 @@ pub fn run(args: &Args) -> CliResult {
     let mut out = std::io::stdout().lock();
     let separation_deg = set.separation_rad.to_degrees();
     let covering_deg = covering_radius_rad(&set.directions, band).to_degrees();
+    let best_known_deg = best_known_rad(set.directions.len(), band).map(f64::to_degrees);
     if args.json {
         let views: Vec<_> = set
             .directions
@@ -99,12 +112,17 @@ pub fn run(args: &Args) -> CliResult {
             "radius": args.radius,
             "center": [x, y, z],
             "separation_deg": separation_deg,
+            "best_known_deg": best_known_deg,
             "largest_hole_deg": covering_deg,
             "views": views,
         });
         writeln!(out, "{answer:#}")?;
     } else {
         writeln!(out, "separation {separation_deg:.3} deg, largest hole {covering_deg:.3} deg")?;
+        if let Some(best_deg) = best_known_deg {
+            let share = 100.0 * separation_deg / best_deg;
+            writeln!(out, "best separation known {best_deg:.3} deg: {share:.2} % reached")?;
+        }
         writeln!(out, "  id  azimuth elevation        x         y         z")?;
         for (id, direction) in set.directions.iter().enumerate() {
             let (azimuth, elevation) = azimuth_elevation_from_direction(direction);

@@ -1,11 +1,11 @@
-//! `prv views --search FILE`: rounds of a long search for well separated sets.
+//! `prv views --search FILE`: rounds of a long search for well separated sets, and what became of it.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::io::Write;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use prv::views::{SearchLine, search_round};
+use prv::views::{SearchLine, improved_table, search_round};
 
 use super::CliResult;
 
@@ -33,5 +33,28 @@ pub(super) fn run(file: &Path, band_deg: (f64, f64), rounds: u16) -> CliResult {
         }
     }
     bar.finish_and_clear();
+    Ok(())
+}
+
+/// Prints `min_deg max_deg n separation_deg rounds` of the best sets in `file`.
+pub(super) fn summary(file: &Path) -> CliResult {
+    let mut best: BTreeMap<(String, usize), (f64, usize)> = BTreeMap::new();
+    for line in std::fs::read_to_string(file)?.lines().filter_map(SearchLine::parse) {
+        let band = format!("{} {}", line.band_deg.0, line.band_deg.1);
+        let (separation_deg, rounds) = best.entry((band, line.count)).or_insert((0.0, 0));
+        *separation_deg = separation_deg.max(line.separation_deg);
+        *rounds += 1;
+    }
+    for ((band, count), (separation_deg, rounds)) in best {
+        println!("{band} {count} {separation_deg:.7} {rounds}");
+    }
+    Ok(())
+}
+
+/// Prints the table of sets with the better ones of `file`.
+pub(super) fn improve(file: &Path) -> CliResult {
+    let found: Vec<SearchLine> =
+        std::fs::read_to_string(file)?.lines().filter_map(SearchLine::parse).collect();
+    improved_table(&found).iter().for_each(|line| println!("{line}"));
     Ok(())
 }

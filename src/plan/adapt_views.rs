@@ -7,7 +7,9 @@ use rayon::prelude::*;
 
 use super::arm_path::{ArmPath, arm_path};
 use super::view_poses::ViewPoses;
-use super::{Arm, Coverage, CoverageReport, PlanError, PlanRequest, UnreachableViews, ViewStatus, Warning};
+use super::{
+    Arm, Coverage, CoverageReport, PlanError, PlanRequest, UnreachableViews, ViewStatus, Warning, cell,
+};
 use crate::geometry::{Direction, Pose};
 use crate::motion::{Reach, Roll};
 use crate::views::{Lattice, ViewSpace, covering_radius_rad, separation_rad, spread};

@@ -1,14 +1,15 @@
 //! The committed sets for the default band: best of a longer search than a request could wait for.
 //!
-//! One line per number of views: `n separation_deg generator_share | x y x y ...`, the directions
-//! from the second on (the first is the pole) with x and y in units of 1e-10 (z follows, it is
-//! never negative). `generator_share` is the separation that the generator reaches at request
-//! time divided by the table's.
+//! One line per number of views: `n separation_deg best_deg share generator_share | x y x y ...`,
+//! the directions from the second on (the first is the pole) with x and y in units of 1e-10 (z
+//! follows, it is never negative). `best_deg` is the best separation known from the long search
+//! (`-` where there was none), `share` the set's separation divided by it, `generator_share` the
+//! separation that the generator reaches at request time divided by the set's.
 
 use std::fmt::Write;
 
 use super::packing::{Effort, pack_for};
-use super::{Band, MAX_VIEWS, ViewSet};
+use super::{Band, MAX_VIEWS, SearchLine, ViewSet, best_known_rad};
 use crate::geometry::{Direction, Vector};
 
 const TABLE: &str = include_str!("table_5_90.txt");
@@ -69,9 +70,43 @@ pub fn generate_table<E>(mut line: impl FnMut(usize, &str) -> Result<(), E>) -> 
             .map(ViewSet::from_directions);
         let share = quick.separation_rad / set.separation_rad;
         let (separation_deg, coordinates) = (set.separation_rad.to_degrees(), coordinates(&set.directions));
-        line(n, &format!("{n} {separation_deg:.7} {share:.6} |{coordinates}"))?;
+        let best = known(best_known_rad(n, Band::DEFAULT), set.separation_rad);
+        line(n, &format!("{n} {separation_deg:.7} {best} {share:.6} |{coordinates}"))?;
     }
     Ok(())
+}
+
+/// The committed table's lines with those sets replaced for which the search has found better ones.
+pub fn improved_table(found: &[SearchLine]) -> Vec<String> {
+    let line = |text: &str| -> Option<String> {
+        if text.starts_with('#') {
+            return Some(text.to_owned());
+        }
+        let (head, _) = text.split_once('|')?;
+        let count = head.split(' ').next()?.parse().ok()?;
+        let generator_share: f64 = head.split_ascii_whitespace().last()?.parse().ok()?;
+        let old = ViewSet::from_directions(look_up(count)?);
+        let sets = found.iter().filter(|line| line.count == count).filter_map(|line| line.set.as_ref());
+        let best = sets.max_by(|a, b| a.separation_rad.total_cmp(&b.separation_rad));
+        let set = best.filter(|set| set.separation_rad > old.separation_rad * (1.0 + 1e-8)).unwrap_or(&old);
+        let searched = best.map(|_| set.separation_rad).or(best_known_rad(count, Band::DEFAULT));
+        Some(format!(
+            "{count} {:.7} {} {:.6} |{}",
+            set.separation_rad.to_degrees(),
+            known(searched, set.separation_rad),
+            generator_share * old.separation_rad / set.separation_rad,
+            coordinates(&set.directions)
+        ))
+    };
+    TABLE.lines().filter_map(line).collect()
+}
+
+/// `best_deg share` of a set.
+fn known(best_rad: Option<f64>, separation_rad: f64) -> String {
+    match best_rad {
+        Some(best) => format!("{:.7} {:.6}", best.to_degrees(), separation_rad / best),
+        None => "- -".to_owned(),
+    }
 }
 
 #[cfg(test)]

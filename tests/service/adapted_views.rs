@@ -78,7 +78,8 @@ async fn as_many_views_as_asked_for_are_planned_and_smaller_holes_left() {
     let text = warning["message"].as_str().unwrap();
     assert!(text.contains(&format!("{} of 35", 35 - left)) && text.contains("no_ik"), "{text}");
 
-    let again = Server::start(tempfile::tempdir().unwrap().path());
+    let elsewhere = tempfile::tempdir().unwrap();
+    let again = Server::start(elsewhere.path());
     assert_eq!(without_timings(again.post_json("/v1/plans", &low_cell()).await), without_timings(plan));
 }
 
@@ -111,7 +112,7 @@ async fn where_fewer_poses_exist_all_are_planned_and_the_rest_tells_why_not() {
     let data = tempfile::tempdir().unwrap();
     let server = Server::start(data.path());
     let far =
-        json!({"object": {"center": [1.12, 0.0, 0.2], "radius": 0.1, "table_z": 0.0}, "view_count": 200});
+        json!({"object": {"center": [1.25, 0.0, 0.2], "radius": 0.1, "table_z": 0.0}, "view_count": 200});
     let plan = server.post_json("/v1/plans", &with(cell(), far)).await;
     let count = planned(&plan).len();
     assert!(count > 0 && count < 200, "{count}");

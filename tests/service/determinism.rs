@@ -15,7 +15,7 @@ async fn the_same_request_gives_the_same_bytes_here_and_elsewhere() {
     assert_eq!(a, b);
     // Spaces, the order of members and defaults that are spelt out make no other request.
     let spelt_out = format!(
-        r#"{{ "roll": "free", "view_space": {{"radius": 0.3, "max_elevation_deg": 90}},
+        r#"{{ "roll": "fixed", "view_space": {{"radius": 0.3, "max_elevation_deg": 90}},
              "robot": {}, "object": {}, "camera": {}, "flange_from_camera": {}, "view_count": 12 }}"#,
         request["robot"], request["object"], request["camera"], request["flange_from_camera"]
     );

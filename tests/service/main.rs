@@ -14,6 +14,7 @@ mod online_workflow;
 mod openapi_drift;
 mod overload;
 mod prediction;
+mod reachability;
 mod reading;
 mod refusals;
 mod restart;

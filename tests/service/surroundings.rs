@@ -22,7 +22,7 @@ async fn a_slim_object_lets_a_long_tool_by_where_its_sphere_does_not() {
     let mut request = with(
         cell(),
         json!({
-            "view_count": 12,
+            "view_count": 12, "roll": "free", "unreachable_views": "skip",
             "view_space": {"radius": 0.28, "min_elevation_deg": 40.0, "max_elevation_deg": 90.0},
             "tool": [{"capsule": {"from": [0.0, 0.06, 0.1], "to": [0.0, 0.06, 0.24], "radius": 0.005}}],
         }),

@@ -7,6 +7,7 @@ pub mod images;
 pub mod objects;
 pub mod plans;
 pub mod predictions;
+pub mod reachability;
 pub mod robots;
 pub mod view_spaces;
 

@@ -11,7 +11,7 @@ use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 use crate::api::wire::{ViewSpaceAnswer, ViewSpaceJson, ViewSpaceView};
 use crate::geometry::{Point, azimuth_elevation_from_direction};
-use crate::views::{ViewSpace, ViewsError, tammes};
+use crate::views::{ViewSpace, ViewsError, best_known_rad, tammes};
 
 /// The shell and band of the set.
 #[derive(Clone, Copy, Debug, Deserialize, IntoParams)]
@@ -75,6 +75,7 @@ fn view_space(n: u32, json: ViewSpaceJson) -> Result<ViewSpaceAnswer, Problem> {
         n,
         view_space: json,
         separation_deg: set.separation_rad.to_degrees(),
+        best_known_deg: best_known_rad(set.directions.len(), space.band).map(f64::to_degrees),
         views: set.directions.iter().enumerate().map(view).collect(),
     })
 }

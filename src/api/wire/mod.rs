@@ -11,6 +11,7 @@ mod plan_answer;
 mod plan_request;
 mod pose;
 mod prediction;
+mod reachability;
 mod robot;
 mod view_space;
 
@@ -28,5 +29,6 @@ pub use plan_answer::{
 pub use plan_request::{InitialViewsJson, PlanRequestJson, RollJson, UnreachableViewsJson};
 pub use pose::PoseJson;
 pub use prediction::{ExpectedPose, PredictionAnswer, PredictionRequest};
+pub use reachability::{BandPart, PlaceJson, ReachabilityAnswer};
 pub use robot::{DhConventionJson, DhRowJson, JointLimitJson, RobotDetails, RobotJson, RobotSummary};
 pub use view_space::{ViewSpaceAnswer, ViewSpaceJson, ViewSpaceView};

@@ -1,0 +1,120 @@
+//! Which part of the band an arm can serve, direction by direction, and where the object would be
+//! served better.
+
+mod grid;
+mod suggest;
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use super::{PlanError, PlanRequest, Warning, cell, check};
+use crate::geometry::Point;
+use crate::motion::Reach;
+
+/// Rows and columns of the grid, when the request names none.
+const RESOLUTION: (usize, usize) = (17, 36);
+/// The same for arms whose inverse kinematics are searched for numerically: milliseconds a pose.
+const RESOLUTION_NUMERIC: (usize, usize) = (6, 12);
+/// Most rows, columns and cells of the grid, and cells for arms of numeric kinematics.
+const MOST: (usize, usize, usize, usize) = (90, 360, 16_200, 648);
+
+/// What an arm can reach of the band about an object.
+#[derive(Clone, Debug)]
+pub struct Reachability {
+    /// Middle elevation of each row, lowest first, radians.
+    pub elevations_rad: Vec<f64>,
+    /// Middle azimuth of each column, from 0 (the base's x axis) on, radians.
+    pub azimuths_rad: Vec<f64>,
+    /// By row and column: `None` where the view can be taken, else the code of the reason.
+    pub grid: Vec<Vec<Option<&'static str>>>,
+    /// Reachable part of the band's area, 0 to 1.
+    pub fraction: f64,
+    /// Reachable part of each row.
+    pub by_elevation: Vec<f64>,
+    /// Reachable part of the area of each column.
+    pub by_azimuth: Vec<f64>,
+    /// Cells by reason.
+    pub counts: BTreeMap<&'static str, usize>,
+    /// The object's place as given, judged as the suggestions are.
+    pub given: Place,
+    /// Up to three other places, best first, at least 5 cm from each other.
+    pub suggestions: Vec<Place>,
+    /// What the caller should know.
+    pub warnings: Vec<Warning>,
+    /// Time by step.
+    pub timings: Vec<(&'static str, Duration)>,
+}
+
+/// A place for the object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The object's centre, metres.
+    pub center_in_base: Point,
+    /// Reachable part of the band about it, 0 to 1, estimated from some 200 directions.
+    pub fraction: f64,
+}
+
+/// Asks for every cell of a grid over the band of `request` whether its arm can take the view
+/// there, and searches for places of the object on the same table that serve more of the band.
+/// The number of views and photos of the request do not matter.
+///
+/// # Errors
+/// Those of the request's check; no robot; a resolution out of its bounds.
+pub fn reachability(
+    request: &PlanRequest,
+    elevations: Option<usize>,
+    azimuths: Option<usize>,
+) -> Result<Reachability, PlanError> {
+    let begin = Instant::now();
+    let mut warnings = check(request)?;
+    let Some(arm) = &request.arm else {
+        return Err(PlanError::missing("robot", "given: reachability is a matter of the arm"));
+    };
+    let cell = cell(request, arm);
+    let reach = Reach::new(&cell, arm.roll, arm.start_rad.as_deref())?;
+    let default = if reach.is_quick() { RESOLUTION } else { RESOLUTION_NUMERIC };
+    let rows = within("elevations", elevations.unwrap_or(default.0), MOST.0)?;
+    let columns = within("azimuths", azimuths.unwrap_or(default.1), MOST.1)?;
+    within("azimuths", rows * columns, if reach.is_quick() { MOST.2 } else { MOST.3 }).map_err(|_| {
+        let most = if reach.is_quick() { MOST.2 } else { MOST.3 } / rows;
+        PlanError::number(
+            "out_of_range",
+            "azimuths",
+            columns as f64,
+            format!("from 1 to {most} at {rows} elevations"),
+        )
+    })?;
+    let space = request.view_space();
+    let grid = grid::Grid::ask(&reach, &space, rows, columns);
+    let asked = begin.elapsed();
+    let given = suggest::given(request, arm, &reach);
+    let suggestions = if reach.is_quick() {
+        suggest::suggest(request, arm, &given)
+    } else {
+        warnings.push(Warning::new(
+            "no_suggestions",
+            "no other places are suggested for arms whose inverse kinematics are searched for numerically",
+        ));
+        Vec::new()
+    };
+    Ok(Reachability {
+        fraction: grid.fraction(),
+        by_elevation: grid.by_row(),
+        by_azimuth: grid.by_column(),
+        counts: grid.counts(),
+        elevations_rad: grid.elevations_rad,
+        azimuths_rad: grid.azimuths_rad,
+        grid: grid.codes,
+        given,
+        suggestions,
+        warnings,
+        timings: vec![("grid", asked), ("suggestions", begin.elapsed() - asked), ("total", begin.elapsed())],
+    })
+}
+
+fn within(field: &str, value: usize, most: usize) -> Result<usize, PlanError> {
+    if (1..=most).contains(&value) {
+        return Ok(value);
+    }
+    Err(PlanError::number("out_of_range", field, value as f64, format!("from 1 to {most}")))
+}
