@@ -73,9 +73,42 @@ fn main() {
     });
     row("UR5e: link_poses_into()", each(link_poses), "us", None);
 
+    let industrial = RobotModel::from_dh(&irb_2400(), DhConvention::Standard).expect("a sound table");
+    closed_form("ABB IRB 2400 from DH (spherical wrist)", &industrial, Some(10.0));
+    closed_form("xArm6 (offset wrist)", &RobotModel::named("xarm6").expect("built in"), Some(1000.0));
     numeric("Panda", &panda);
+    numeric("FR3", &RobotModel::named("fr3").expect("built in"));
     let bent = RobotModel::from_dh(&calibrated_ur5e(), DhConvention::Standard).expect("a sound table");
     numeric("UR5e, calibrated table", &bent);
+}
+
+/// An industrial arm: parallel axes 2 and 3, a spherical wrist (lengths of Brandstoetter et al. 2014).
+fn irb_2400() -> [DhRow; 6] {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    [
+        DhRow::new(0.1, -quarter, 0.615, 0.0),
+        DhRow::new(0.705, 0.0, 0.0, -quarter),
+        DhRow::new(0.135, -quarter, 0.0, 0.0),
+        DhRow::new(0.0, quarter, 0.755, 0.0),
+        DhRow::new(0.0, -quarter, 0.0, 0.0),
+        DhRow::new(0.0, 0.0, 0.085, 0.0),
+    ]
+}
+
+/// Time of all branches of an arm with a closed form, and of the same poses out of reach.
+fn closed_form(name: &str, robot: &RobotModel, bound_us: Option<f64>) {
+    let targets = poses(robot);
+    let answers: Vec<_> = targets.iter().map(|t| robot.kinematics.inverse(t, &[]).solutions).collect();
+    let unsolved = answers.iter().filter(|s| s.is_empty()).count();
+    row(&format!("{name}: reachable poses without a solution"), unsolved as f64 / 10.0, "%", Some(0.0));
+    let solutions = answers.iter().map(Vec::len).sum::<usize>() as f64 / POSES as f64;
+    row(&format!("{name}: solutions a pose"), solutions, "", None);
+    let all = median_time(51, 1, || {
+        for target in &targets[..BATCH] {
+            black_box(robot.kinematics.inverse(black_box(target), &[]));
+        }
+    });
+    row(&format!("{name}: inverse(), all branches"), all * 1e6 / BATCH as f64, "us", bound_us);
 }
 
 /// A UR5e with small deviations in every row.

@@ -109,6 +109,12 @@ impl From<RobotError> for Problem {
                 json_number(value),
                 format!("within [{least}, {most}]{hint}"),
             ),
+            RobotError::UnknownJoint { name, known } => {
+                Problem::field("unknown_joint", format!("limits.{name}"), name, format!("one of {known}"))
+            }
+            RobotError::Limit { joint, field, value, bound } => {
+                Problem::field("out_of_range", format!("limits.{joint}.{field}"), json_number(value), bound)
+            }
             RobotError::StateLength { found, expected } => {
                 Problem::field("joint_count", "start", found, format!("{expected} joint angles"))
             }

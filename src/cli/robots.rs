@@ -49,7 +49,8 @@ fn json(robot: &RobotModel) -> serde_json::Value {
         "base_frame": robot.base_frame,
         "flange_frame": robot.flange_frame,
         "joints": joints,
-        "sources": robot.sources,
+        "solver": robot.solver().name(),
+        "sources": robot.sources.iter().map(|s| serde_json::json!({"group": s.group.name(), "source": s.text})).collect::<Vec<_>>(),
     })
 }
 
@@ -65,6 +66,7 @@ fn print(robot: &RobotModel) {
             joint.max_acceleration_rad_per_s2.to_degrees(),
         );
     }
+    println!("  solver: {}", robot.solver().description());
     robot.sources.iter().for_each(|source| println!("  - {source}"));
     println!();
 }

@@ -101,8 +101,12 @@ fn check_shell(request: &PlanRequest) -> Result<(), PlanError> {
 }
 
 fn check_arm(arm: &Arm) -> Result<Vec<Warning>, PlanError> {
-    let mut warnings: Vec<Warning> =
-        arm.model.warnings.iter().map(|text| Warning::new("robot_description", text.clone())).collect();
+    let mut warnings: Vec<Warning> = arm
+        .model
+        .warnings
+        .iter()
+        .map(|warning| Warning::new(warning.code, warning.message.clone()))
+        .collect();
     match &arm.flange_from_camera {
         Some(pose) => warnings.extend(hand_eye::check(pose)?),
         None => warnings.push(Warning::new(

@@ -3,14 +3,18 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::dh::chain_from_dh;
+use super::geometric::GeometricKinematics;
+use super::ur::UrShape;
 use super::{
-    Chain, DhConvention, DhRow, Joint, Kinematics, Link, LinkShape, NumericKinematics, RobotError, RobotModel,
+    Chain, DhConvention, DhRow, DhTable, Joint, Kinematics, Link, LinkShape, NumericKinematics, RobotError,
+    RobotModel, RobotWarning, Source,
 };
 use crate::geometry::Pose;
 
 /// Radius of the capsules that stand for links of unknown shape, metres.
 pub(super) const DEFAULT_RADIUS_M: f64 = 0.05;
+
+const LIMITS_SOURCE: &str = "the request's DH table; what it lacks is assumed and listed in the warnings.";
 
 /// Fewest and most moving joints of a described arm.
 pub(super) const JOINTS: std::ops::RangeInclusive<usize> = 6..=7;
@@ -29,47 +33,56 @@ pub(super) fn from_dh(rows: &[DhRow], convention: DhConvention) -> Result<RobotM
             most: *JOINTS.end(),
         });
     }
-    let chain = chain_from_dh(rows, convention, &Pose::identity())?;
+    let table = DhTable { convention, rows: rows.to_vec(), last_from_flange: Pose::identity() };
+    let chain = table.chain()?;
     let mut warnings = Vec::new();
     let joints = rows
         .iter()
         .enumerate()
         .map(|(i, row)| joint_from_row(i, row, &mut warnings))
         .collect::<Result<Vec<_>, _>>()?;
-    warnings.push(format!(
+    warnings.push(RobotWarning::description(format!(
         "the links' shapes are unknown: capsules of {DEFAULT_RADIUS_M} m radius between the joints stand for them"
-    ));
+    )));
     Ok(RobotModel {
         name: "dh".to_owned(),
         links: links_along(&chain, DEFAULT_RADIUS_M),
+        dh: Some(table),
         kinematics: kinematics_of(chain, &joints)?,
         joints,
         base_frame: "base".to_owned(),
         flange_frame: "flange".to_owned(),
-        sources: vec![
-            "Lengths, twists and limits: the request's DH table; what it lacks is listed in the warnings."
-                .to_owned(),
-            format!(
-                "Link shapes: capsules of {DEFAULT_RADIUS_M} m radius between the joints' frames, assumed."
-            ),
-        ],
+        sources: Source::of_model([
+            "the request's DH table.",
+            LIMITS_SOURCE,
+            LIMITS_SOURCE,
+            LIMITS_SOURCE,
+            "assumed: capsules of 0.05 m radius between the joints' frames.",
+        ]),
         warnings,
     })
 }
 
 /// The kinematics of a described chain.
+///
+/// The structure of the UR arms comes first: the numeric solver finds all of its branches.
 pub(super) fn kinematics_of(chain: Chain, joints: &[Joint]) -> Result<Arc<dyn Kinematics>, RobotError> {
+    let three_parallel = UrShape::of(&chain).is_some();
+    if !three_parallel && let Some(found) = GeometricKinematics::new(chain.clone(), joints.to_vec())? {
+        return Ok(Arc::new(found));
+    }
     Ok(Arc::new(NumericKinematics::new(chain, joints.to_vec())?))
 }
 
-fn joint_from_row(index: usize, row: &DhRow, warnings: &mut Vec<String>) -> Result<Joint, RobotError> {
+fn joint_from_row(index: usize, row: &DhRow, warnings: &mut Vec<RobotWarning>) -> Result<Joint, RobotError> {
     let name = match &row.name {
         Some(name) => super::error::short(name),
         None => format!("joint_{}", index + 1),
     };
     let mut given_or = |value: Option<f64>, field: &str, assumed: f64, unit: &str| {
         value.unwrap_or_else(|| {
-            warnings.push(format!("{name}: no {field} given, {assumed:.4} {unit} assumed"));
+            let message = format!("{name}: no {field} given, {assumed:.4} {unit} assumed");
+            warnings.push(RobotWarning::description(message));
             assumed
         })
     };

@@ -48,6 +48,24 @@ impl DhRow {
     }
 }
 
+/// A whole table, with the flange behind it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DhTable {
+    /// The convention of the rows.
+    pub convention: DhConvention,
+    /// Base to last joint.
+    pub rows: Vec<DhRow>,
+    /// The flange in the last row's frame.
+    pub last_from_flange: Pose,
+}
+
+impl DhTable {
+    /// The chain of the table. Errors name the row and the field.
+    pub(super) fn chain(&self) -> Result<Chain, RobotError> {
+        chain_from_dh(&self.rows, self.convention, &self.last_from_flange)
+    }
+}
+
 /// The chain of a DH table with a flange fixed to the last frame by `last_from_flange`.
 pub(super) fn chain_from_dh(
     rows: &[DhRow],

@@ -37,6 +37,26 @@ pub enum RobotError {
         /// What may have gone wrong, starting with a separator; or empty.
         hint: &'static str,
     },
+    /// No joint of the robot has this name.
+    #[error("the robot has no joint {name:?}; its joints: {known}")]
+    UnknownJoint {
+        /// The name given (cut to 64 characters).
+        name: String,
+        /// The names there are.
+        known: String,
+    },
+    /// A number that is no limit of a joint.
+    #[error("{joint}: {field} is {value}, must be {bound}")]
+    Limit {
+        /// The joint.
+        joint: String,
+        /// `min`, `max`, `max_speed`, `max_acceleration` or `max_jerk`.
+        field: &'static str,
+        /// The number given.
+        value: f64,
+        /// What it must be.
+        bound: String,
+    },
     /// A joint state of the wrong length.
     #[error("{found} joint values given, the robot has {expected} joints")]
     StateLength {

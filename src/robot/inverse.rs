@@ -76,6 +76,18 @@ impl std::fmt::Display for ReachBound {
     }
 }
 
+impl InverseFailure {
+    /// Nothing is known but that no state was found.
+    pub(super) fn unknown() -> Self {
+        Self {
+            nearest: Vec::new(),
+            position_residual_m: f64::INFINITY,
+            rotation_residual_rad: f64::INFINITY,
+            reason: UnreachableReason::NotFound { attempts: 0 },
+        }
+    }
+}
+
 impl InverseSolutions {
     /// Solutions that were found; an empty list must come with a failure, so use [`Self::failed`] for that.
     pub fn found(solutions: Vec<Vec<f64>>) -> Self {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::Matrix6xX;
 
-use super::{InverseSolutions, Joint, RobotError};
+use super::{ArmStructure, InverseSolutions, Joint, RobotError, Solver};
 use crate::geometry::Pose;
 
 /// Kinematics of a serial arm with revolute joints.
@@ -16,10 +16,14 @@ pub trait Kinematics: std::fmt::Debug + Send + Sync {
     /// The number of joints.
     fn dof(&self) -> usize;
 
-    /// Whether [`Kinematics::inverse`] is a formula of microseconds rather than a search of milliseconds.
+    /// Whether [`Kinematics::inverse`] is a formula of microseconds rather than a search.
     fn is_closed_form(&self) -> bool {
-        false
+        let solver = self.solver();
+        solver.exact && matches!(solver.structure, ArmStructure::ThreeParallel | ArmStructure::SphericalWrist)
     }
+
+    /// How its inverse kinematics works.
+    fn solver(&self) -> Solver;
 
     /// `base_from_flange` at `joints_rad`.
     fn forward(&self, joints_rad: &[f64]) -> Pose;

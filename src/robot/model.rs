@@ -1,8 +1,15 @@
 //! A robot: its joints, kinematics, links and where the numbers come from.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{DhConvention, DhRow, Joint, Kinematics, Link, RobotError, panda, ur};
+use super::{
+    DhConvention, DhRow, DhTable, Joint, Kinematics, Link, NumberGroup, RobotError, RobotWarning, Solver,
+    Source, franka, ur, xarm,
+};
+
+/// Mesh files by the name that a URDF gives them.
+pub type Meshes = BTreeMap<String, Vec<u8>>;
 
 /// A serial arm of revolute joints.
 #[derive(Debug, Clone)]
@@ -20,10 +27,12 @@ pub struct RobotModel {
     pub base_frame: String,
     /// The name of the frame that inverse kinematics places.
     pub flange_frame: String,
-    /// One line for each group of numbers: where it comes from or why it is assumed.
-    pub sources: Vec<String>,
-    /// What was left out or assumed about a described robot (empty for built-in models).
-    pub warnings: Vec<String>,
+    /// The chain as a DH table, if that is how it was given.
+    pub dh: Option<DhTable>,
+    /// For each group of numbers where it comes from or why it is assumed.
+    pub sources: Vec<Source>,
+    /// What was left out of or assumed about a described robot, and limits that were widened.
+    pub warnings: Vec<RobotWarning>,
 }
 
 impl RobotModel {
@@ -37,16 +46,16 @@ impl RobotModel {
 
     /// The names [`RobotModel::named`] knows.
     pub fn names() -> Vec<&'static str> {
-        ur::NAMES.iter().copied().chain([panda::NAME]).collect()
+        ur::NAMES.into_iter().chain(franka::NAMES).chain([xarm::NAME]).collect()
     }
 
     /// A built-in model, its name in any case.
     pub fn named(name: &str) -> Result<Self, RobotError> {
         let lower = name.to_ascii_lowercase();
-        if lower == panda::NAME {
-            return panda::model();
+        if lower == xarm::NAME {
+            return xarm::model();
         }
-        match ur::model(&lower) {
+        match ur::model(&lower).or_else(|| franka::model(&lower)) {
             Some(model) => model,
             None => Err(RobotError::UnknownModel {
                 name: super::error::short(name),
@@ -69,7 +78,7 @@ impl RobotModel {
     /// (`tool0`, `flange`, ..) or the only leaf that fits, unless they are
     /// named. Fixed joints are folded; any other joint between base and tip is
     /// refused. Speed limits are the URDF's, accelerations assumed. Collision
-    /// boxes, cylinders, capsules and spheres are kept, meshes left out; what
+    /// boxes, cylinders, capsules and spheres are kept, meshes left out with a warning; what
     /// was left out or assumed is in `warnings`. Text over 1 MiB, more than
     /// 512 links or 256 shapes are refused; errors name the joint or link.
     pub fn from_urdf(
@@ -77,7 +86,19 @@ impl RobotModel {
         base_link: Option<&str>,
         tip_link: Option<&str>,
     ) -> Result<Self, RobotError> {
-        super::urdf::from_urdf(text, base_link, tip_link)
+        Self::from_urdf_and_meshes(text, base_link, tip_link, &Meshes::new())
+    }
+
+    /// As [`Self::from_urdf`], with files for the collision meshes it names: for
+    /// each the smallest box or capsule found that holds it is kept. Files that are neither STL nor
+    /// OBJ are refused by name; meshes without a file are left out with a warning.
+    pub fn from_urdf_and_meshes(
+        text: &str,
+        base_link: Option<&str>,
+        tip_link: Option<&str>,
+        meshes: &Meshes,
+    ) -> Result<Self, RobotError> {
+        super::urdf::from_urdf(text, base_link, tip_link, meshes)
     }
 
     /// The same arm with other limits, for cells that allow less than the maker
@@ -86,8 +107,13 @@ impl RobotModel {
         joints.iter().try_for_each(super::described::check_joint)?;
         self.kinematics = self.kinematics.with_joints(joints.clone())?;
         self.joints = joints;
-        self.sources.push(format!("Limits replaced: {source}"));
+        self.sources.push(Source::new(NumberGroup::ReplacedLimits, source));
         Ok(self)
+    }
+
+    /// How the inverse kinematics works.
+    pub fn solver(&self) -> Solver {
+        self.kinematics.solver()
     }
 
     /// A joint state within the limits; see [`super::clamp_start`].
@@ -115,7 +141,8 @@ mod tests {
             assert_eq!(robot.kinematics.dof(), robot.joints.len());
             assert_eq!(robot.links.len(), robot.joints.len() + 1);
             assert_eq!(robot.kinematics.link_poses(&[]).len(), robot.links.len());
-            assert!(robot.sources.len() >= 3);
+            assert_eq!(robot.sources.len(), 5);
+            assert_eq!(robot.dh.as_ref().map(|dh| dh.rows.len()), Some(robot.joints.len()));
         }
     }
 

@@ -18,6 +18,7 @@ mod reachability;
 mod reading;
 mod refusals;
 mod restart;
+mod robot_limits;
 mod robots_described;
 mod skip_reasons;
 mod skipped_views;

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{camera, images, object, pose, robot, surroundings, timing};
+use super::{camera, images, limited_robot, object, pose, surroundings, timing};
 use crate::api::problem::Problem;
 use crate::api::wire::{
     InitialViewsJson, PlanRequestJson, PredictionRequest, RollJson, UnreachableViewsJson, ViewSpaceJson,
@@ -91,6 +91,7 @@ fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
             ("tool", !json.tool.is_empty()),
             ("margin", json.margin.is_some()),
             ("timing", json.timing.is_some()),
+            ("limits", json.limits.is_some()),
         ] {
             if given {
                 return Err(Problem::field("robot_missing", field, "given", "left out without robot"));
@@ -100,7 +101,7 @@ fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
     };
     let mount = json.flange_from_camera.as_ref().map(|json| pose("flange_from_camera", json)).transpose()?;
     Ok(Some(Arm {
-        model: robot(description)?,
+        model: limited_robot(description, json.limits.as_ref())?,
         flange_from_camera: mount,
         start_rad: json.start.clone(),
         surroundings: surroundings(json)?,

@@ -1,8 +1,9 @@
 //! Robots.
 
+use super::base64_bytes;
 use crate::api::problem::Problem;
-use crate::api::wire::{DhConventionJson, DhRowJson, JointLimitJson, RobotDetails, RobotJson, RobotSummary};
-use crate::robot::{DhConvention, DhRow, RobotModel};
+use crate::api::wire::{DhConventionJson, DhRowJson, RobotJson, RobotSummary};
+use crate::robot::{DhConvention, DhRow, Meshes, RobotModel};
 
 /// The robot of a request.
 ///
@@ -20,7 +21,8 @@ pub fn robot(json: &RobotJson) -> Result<RobotModel, Problem> {
             Ok(RobotModel::from_dh(&rows, convention)?)
         }
         (None, None, Some(text)) => {
-            Ok(RobotModel::from_urdf(text, json.base_link.as_deref(), json.tip_link.as_deref())?)
+            let (base, tip) = (json.base_link.as_deref(), json.tip_link.as_deref());
+            Ok(RobotModel::from_urdf_and_meshes(text, base, tip, &meshes(json)?)?)
         }
         (model, dh, urdf) => {
             let given =
@@ -33,6 +35,17 @@ pub fn robot(json: &RobotJson) -> Result<RobotModel, Problem> {
             ))
         }
     }
+}
+
+/// The attached mesh files.
+fn meshes(json: &RobotJson) -> Result<Meshes, Problem> {
+    let given = json.meshes.iter().flatten();
+    given
+        .map(|(name, text)| {
+            let shown: String = name.chars().take(64).collect();
+            Ok((name.clone(), base64_bytes(&format!("robot.meshes.{shown}"), text)?))
+        })
+        .collect()
 }
 
 fn dh_row(json: &DhRowJson) -> DhRow {
@@ -56,25 +69,4 @@ pub fn robot_summaries() -> Vec<RobotSummary> {
         RobotSummary { model: name.to_owned(), joints }
     };
     RobotModel::names().into_iter().map(summary).collect()
-}
-
-/// One robot's numbers.
-pub fn robot_details(model: &RobotModel) -> RobotDetails {
-    RobotDetails {
-        model: model.name.clone(),
-        base_frame: model.base_frame.clone(),
-        flange_frame: model.flange_frame.clone(),
-        joint_names: model.joints.iter().map(|joint| joint.name.clone()).collect(),
-        limits: model
-            .joints
-            .iter()
-            .map(|joint| JointLimitJson {
-                min: joint.lower_rad,
-                max: joint.upper_rad,
-                max_speed: joint.max_speed_rad_per_s,
-                max_acceleration: joint.max_acceleration_rad_per_s2,
-            })
-            .collect(),
-        sources: model.sources.clone(),
-    }
 }

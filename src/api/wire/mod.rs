@@ -6,6 +6,7 @@
 mod camera;
 mod cell;
 mod execution;
+mod limits;
 mod object;
 mod plan_answer;
 mod plan_request;
@@ -13,6 +14,7 @@ mod pose;
 mod prediction;
 mod reachability;
 mod robot;
+mod robot_details;
 mod view_space;
 
 pub use camera::CameraJson;
@@ -21,6 +23,7 @@ pub use execution::{
     BackgroundJson, CreateExecution, ExecutionImages, ExecutionJson, ExecutionList, ExecutionObject,
     ExecutionStateJson, JointsJson, ObjectSummary, ProgressJson,
 };
+pub use limits::{JointLimitsJson, LimitsJson};
 pub use object::{ObjectJson, ObjectShapeJson};
 pub use plan_answer::{
     CoverageJson, CoverageReportJson, PlanAnswer, PlanList, PlannedView, SkipReason, TrajectoryJson,
@@ -30,5 +33,9 @@ pub use plan_request::{InitialViewsJson, PlanRequestJson, RollJson, UnreachableV
 pub use pose::PoseJson;
 pub use prediction::{ExpectedPose, PredictionAnswer, PredictionRequest};
 pub use reachability::{BandPart, PlaceJson, ReachabilityAnswer};
-pub use robot::{DhConventionJson, DhRowJson, JointLimitJson, RobotDetails, RobotJson, RobotSummary};
+pub use robot::{DhConventionJson, DhRowJson, RobotJson, RobotSummary};
+pub use robot_details::{
+    JointLimitJson, KinematicsJson, KinematicsRowJson, LinkJson, LinkShapeJson, RobotDetails, SolverJson,
+    SourceJson,
+};
 pub use view_space::{ViewSpaceAnswer, ViewSpaceJson, ViewSpaceView};

@@ -3,7 +3,10 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::{CameraJson, KeepOutJson, ObjectJson, PoseJson, RobotJson, SolidJson, TimingJson, ViewSpaceJson};
+use super::{
+    CameraJson, KeepOutJson, LimitsJson, ObjectJson, PoseJson, RobotJson, SolidJson, TimingJson,
+    ViewSpaceJson,
+};
 
 /// What to plan. Exactly one of `images`, `view_count` and `views` says how many views.
 ///
@@ -49,6 +52,10 @@ pub struct PlanRequestJson {
     /// The arm; without it the answer holds poses and order only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub robot: Option<RobotJson>,
+    /// Joint limits by joint name that replace the robot's own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(value_type = Option<std::collections::BTreeMap<String, super::JointLimitsJson>>)]
+    pub limits: Option<LimitsJson>,
     /// Hand-eye calibration: the camera's pose in the flange (`tool0`) frame, which is what
     /// OpenCV's `calibrateHandEye` returns for eye-in-hand. When left out, the camera sits 0.05 m
     /// in front of the flange and looks along its z axis, with a warning.

@@ -1,5 +1,7 @@
 //! Robots in requests and in the catalogue.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -26,6 +28,10 @@ pub struct RobotJson {
     /// The URDF's link that carries the camera; found by its customary name when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_link: Option<String>,
+    /// Files of the URDF's collision meshes by the name it gives them, STL or OBJ in base64: a box
+    /// or capsule that holds each takes its place. A mesh without file is left out, with a warning.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub meshes: Option<BTreeMap<String, String>>,
 }
 
 /// The two conventions of Denavit-Hartenberg tables.
@@ -84,34 +90,4 @@ pub struct RobotSummary {
     pub model: String,
     /// Number of joints.
     pub joints: u32,
-}
-
-/// A robot of the catalogue with its numbers.
-#[derive(Clone, Debug, Serialize, ToSchema)]
-pub struct RobotDetails {
-    /// The name to give as `robot.model`.
-    pub model: String,
-    /// The frame in which `object` and all poses are given.
-    pub base_frame: String,
-    /// The frame that carries the camera.
-    pub flange_frame: String,
-    /// Joint names, base to flange.
-    pub joint_names: Vec<String>,
-    /// Limits, in the order of `joint_names`.
-    pub limits: Vec<JointLimitJson>,
-    /// Where the numbers come from.
-    pub sources: Vec<String>,
-}
-
-/// Limits of one joint.
-#[derive(Clone, Debug, Serialize, ToSchema)]
-pub struct JointLimitJson {
-    /// Smallest angle, rad.
-    pub min: f64,
-    /// Largest angle, rad.
-    pub max: f64,
-    /// Speed limit, rad/s.
-    pub max_speed: f64,
-    /// Acceleration limit, rad/s2 (assumed where the maker publishes none).
-    pub max_acceleration: f64,
 }

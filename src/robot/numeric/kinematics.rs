@@ -11,8 +11,8 @@ use crate::geometry::Pose;
 use crate::robot::postures::{Postures, sort_by_move};
 use crate::robot::ur::{Branches, UrShape};
 use crate::robot::{
-    Chain, InverseFailure, InverseSolutions, Joint, Kinematics, MAX_JOINTS, ReachBound, RobotError,
-    UnreachableReason,
+    ArmStructure, Chain, InverseFailure, InverseSolutions, Joint, Kinematics, MAX_JOINTS, ReachBound,
+    RobotError, Solver, UnreachableReason,
 };
 
 /// Residual under which a state counts as a solution, metres and radians.
@@ -113,6 +113,36 @@ impl NumericKinematics {
         postures.finish(|| self.miss(nearest, attempts))
     }
 
+    /// Where a descent from `start_rad` within the limits ends, if that is at the target.
+    pub(in crate::robot) fn descend_from(
+        &self,
+        base_from_flange: &Pose,
+        start_rad: &[f64],
+    ) -> Option<Vec<f64>> {
+        let rotation = nalgebra::UnitQuaternion::new_normalize(*base_from_flange.rotation.quaternion());
+        let target = Pose::from_parts(base_from_flange.translation, rotation);
+        let from = self.within_limits(start_rad);
+        let end = descend(&self.chain, Bounds::Limits(&self.joints), &target, &from);
+        // A target that is not finite is not reached: the residual is no number.
+        end.reaches(REACHED).then(|| self.cut(&end).to_vec())
+    }
+
+    /// The failure of a target that was missed in `attempts`, with the best that a descent
+    /// from `start` finds.
+    pub(in crate::robot) fn miss_from(
+        &self,
+        target: &Pose,
+        start: Option<&[f64; MAX_JOINTS]>,
+        attempts: usize,
+    ) -> InverseSolutions {
+        let from = start.map(|start| self.within_limits(start));
+        if let Some(failure) = self.beyond_reach(target, from.as_ref()) {
+            return InverseSolutions::failed(failure);
+        }
+        let end = from.map(|from| descend(&self.chain, Bounds::Limits(&self.joints), target, &from));
+        InverseSolutions::failed(self.miss(end, attempts))
+    }
+
     /// Descends from the closed form's branches. On an exact UR chain that ends
     /// where it starts; on a calibrated one a few steps away.
     fn search_branches(
@@ -207,6 +237,13 @@ impl NumericKinematics {
 impl Kinematics for NumericKinematics {
     fn dof(&self) -> usize {
         self.chain.dof()
+    }
+
+    fn solver(&self) -> Solver {
+        match &self.ur {
+            Some(ur) => Solver { structure: ArmStructure::ThreeParallel, exact: ur.is_exact() },
+            None => Solver { structure: ArmStructure::General, exact: false },
+        }
     }
 
     fn forward(&self, joints_rad: &[f64]) -> Pose {

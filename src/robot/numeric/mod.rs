@@ -4,5 +4,6 @@ mod descent;
 mod kinematics;
 mod starts;
 
-pub(super) use descent::{Bounds, descend};
+pub(super) use descent::{Bounds, Descent, descend};
 pub use kinematics::NumericKinematics;
+pub(super) use starts::radical_inverse;

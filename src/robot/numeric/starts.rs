@@ -20,7 +20,7 @@ pub(super) fn start(joints: &[Joint], index: u32) -> [f64; MAX_JOINTS] {
 }
 
 /// `index`'s digits in `base`, mirrored behind the point; in `(0, 1)`.
-fn radical_inverse(mut index: u32, base: u32) -> f64 {
+pub(in crate::robot) fn radical_inverse(mut index: u32, base: u32) -> f64 {
     let (mut value, mut weight) = (0.0, 1.0);
     while index > 0 {
         weight /= f64::from(base);

@@ -10,7 +10,9 @@ use crate::geometry::Pose;
 use crate::robot::dh::chain_from_dh;
 use crate::robot::numeric::{Bounds, descend};
 use crate::robot::postures::{Postures, sort_by_move};
-use crate::robot::{Chain, DhConvention, InverseSolutions, Joint, Kinematics, MAX_JOINTS, RobotError};
+use crate::robot::{
+    ArmStructure, Chain, DhConvention, InverseSolutions, Joint, Kinematics, MAX_JOINTS, RobotError, Solver,
+};
 
 /// Branches that miss by less than this may be polished, metres.
 const POLISHABLE_M: f64 = 1e-6;
@@ -94,8 +96,8 @@ impl Kinematics for UrKinematics {
         6
     }
 
-    fn is_closed_form(&self) -> bool {
-        true
+    fn solver(&self) -> Solver {
+        Solver { structure: ArmStructure::ThreeParallel, exact: true }
     }
 
     fn forward(&self, joints_rad: &[f64]) -> Pose {

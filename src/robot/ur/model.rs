@@ -6,7 +6,8 @@ use std::sync::Arc;
 use super::UrKinematics;
 use super::links::{girth, links};
 use super::parameters::{JOINT_NAMES, SHEETS, Sheet};
-use crate::robot::{Joint, RobotError, RobotModel};
+use crate::geometry::Pose;
+use crate::robot::{DhConvention, DhTable, Joint, RobotError, RobotModel, Source};
 
 /// Index of the elbow among the joints.
 const ELBOW: usize = 2;
@@ -25,7 +26,12 @@ fn build(sheet: &Sheet) -> Result<RobotModel, RobotError> {
         links: links(&sheet.parameters, &girth(sheet.name)),
         base_frame: "base".to_owned(),
         flange_frame: "tool0".to_owned(),
-        sources: sources(),
+        dh: Some(DhTable {
+            convention: DhConvention::Standard,
+            rows: sheet.parameters.dh_rows().to_vec(),
+            last_from_flange: Pose::identity(),
+        }),
+        sources: sources(sheet),
         warnings: Vec::new(),
     })
 }
@@ -48,26 +54,25 @@ fn joints(max_speed_deg_per_s: &[f64; 6]) -> Vec<Joint> {
         .collect()
 }
 
-fn sources() -> Vec<String> {
-    [
-        "Lengths and twists: the maker's published DH parameters (standard convention, metres); \
-         frame `base` to `tool0`. ROS `base_link` is `base` turned by pi about z. A real arm's \
-         calibration differs by millimetres: send its URDF or DH table instead.",
-        "Position limits: +-360 degrees as published; the elbow is held to +-180 degrees, because \
-         a wider elbow cuts the free space into parts that no path joins.",
-        "Speed limits: the maker's data sheet.",
-        "Acceleration limits: assumed, 5 rad/s2 for every joint; the maker publishes none.",
-        "Link shapes: capsules, approximations from the DH lengths and the outlines of the \
-         housings; without cables, tool or camera.",
-    ]
-    .map(str::to_owned)
-    .to_vec()
+fn sources(sheet: &Sheet) -> Vec<Source> {
+    let speeds = format!("Universal Robots, data sheet of the {}.", sheet.name.to_uppercase());
+    Source::of_model([
+        "Universal Robots, \"DH parameters for calculations of kinematics and dynamics\" (standard \
+         convention); frame `base` to `tool0`. ROS `base_link` is `base` turned by pi about z. A real \
+         arm's calibration differs by millimetres: send its URDF or DH table instead.",
+        "+-360 degrees as in the maker's data sheet; the elbow is held to +-180 degrees, because a wider \
+         elbow cuts the free space into parts that no path joins.",
+        &speeds,
+        "assumed, 5 rad/s2 for every joint; the maker publishes none.",
+        "assumed: capsules from the DH lengths and the outlines of the housings; without cables, tool or \
+         camera.",
+    ])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Point, Pose, Vector};
+    use crate::geometry::{Point, Vector};
     use crate::robot::LinkShape;
     use std::f64::consts::FRAC_PI_2;
 
@@ -94,6 +99,10 @@ mod tests {
             ("ur3e", 0.15185, -0.24355, -0.2132, 0.13105, 0.08535, 0.0921),
             ("ur5", 0.089159, -0.425, -0.39225, 0.10915, 0.09465, 0.0823),
             ("ur10e", 0.1807, -0.6127, -0.57155, 0.17415, 0.11985, 0.11655),
+            ("ur3", 0.1519, -0.24365, -0.21325, 0.11235, 0.08535, 0.0819),
+            ("ur10", 0.1273, -0.612, -0.5723, 0.163941, 0.1157, 0.0922),
+            ("ur20", 0.2363, -0.862, -0.7287, 0.201, 0.1593, 0.1543),
+            ("ur30", 0.2363, -0.637, -0.5037, 0.201, 0.1593, 0.1543),
         ] {
             let pose = flange(name, [0.0, -FRAC_PI_2, 0.0, -FRAC_PI_2, 0.0, 0.0]);
             let by_hand = Vector::new(0.0, -d4 - d6, d1 - a2 - a3 + d5);
@@ -119,5 +128,25 @@ mod tests {
         let wrist = poses[3] * to_in_link;
         assert!((elbow - Point::new(0.0, -0.007, 0.1625 + 0.425)).norm() < 1e-12);
         assert!((wrist - Point::new(0.0, -0.007, 0.1625 + 0.425 + 0.3922)).norm() < 1e-12);
+    }
+
+    /// The data sheets' working radius lies between the stretched arms and the wrist's end
+    /// beyond them; for the larger arms it is that end to a few millimetres.
+    #[test]
+    fn the_arms_reach_what_their_data_sheets_say() {
+        for (name, reach_m, slack_m) in [
+            ("ur3", 0.5, 0.06),
+            ("ur5", 0.85, 0.07),
+            ("ur16e", 0.9, 0.06),
+            ("ur10", 1.3, 0.005),
+            ("ur10e", 1.3, 0.005),
+            ("ur20", 1.75, 0.005),
+            ("ur30", 1.3, 0.005),
+        ] {
+            let sheet = SHEETS.iter().find(|sheet| sheet.name == name).unwrap();
+            let p = sheet.parameters;
+            let (arms_m, end_m) = (-p.a2_m - p.a3_m, -p.a2_m - p.a3_m + p.d5_m);
+            assert!(arms_m < reach_m && (end_m - reach_m).abs() < slack_m, "{name}: {arms_m} {end_m}");
+        }
     }
 }

@@ -43,14 +43,19 @@ pub(super) struct Sheet {
 }
 
 /// The names of the arms below.
-pub const NAMES: [&str; 5] = ["ur3e", "ur5", "ur5e", "ur10e", "ur16e"];
+pub const NAMES: [&str; 9] = ["ur3", "ur3e", "ur5", "ur5e", "ur10", "ur10e", "ur16e", "ur20", "ur30"];
 
 const fn lengths(d1_m: f64, a2_m: f64, a3_m: f64, d4_m: f64, d5_m: f64, d6_m: f64) -> UrParameters {
     UrParameters { d1_m, a2_m, a3_m, d4_m, d5_m, d6_m }
 }
 
 /// Maker's published DH parameters and joint speeds.
-pub(super) const SHEETS: [Sheet; 5] = [
+pub(super) const SHEETS: [Sheet; 9] = [
+    Sheet {
+        name: "ur3",
+        parameters: lengths(0.1519, -0.24365, -0.21325, 0.11235, 0.08535, 0.0819),
+        max_speed_deg_per_s: [180.0, 180.0, 180.0, 360.0, 360.0, 360.0],
+    },
     Sheet {
         name: "ur3e",
         parameters: lengths(0.15185, -0.24355, -0.2132, 0.13105, 0.08535, 0.0921),
@@ -67,6 +72,11 @@ pub(super) const SHEETS: [Sheet; 5] = [
         max_speed_deg_per_s: [180.0; 6],
     },
     Sheet {
+        name: "ur10",
+        parameters: lengths(0.1273, -0.612, -0.5723, 0.163941, 0.1157, 0.0922),
+        max_speed_deg_per_s: [120.0, 120.0, 180.0, 180.0, 180.0, 180.0],
+    },
+    Sheet {
         name: "ur10e",
         parameters: lengths(0.1807, -0.6127, -0.57155, 0.17415, 0.11985, 0.11655),
         max_speed_deg_per_s: [120.0, 120.0, 180.0, 180.0, 180.0, 180.0],
@@ -75,6 +85,16 @@ pub(super) const SHEETS: [Sheet; 5] = [
         name: "ur16e",
         parameters: lengths(0.1807, -0.4784, -0.36, 0.17415, 0.11985, 0.11655),
         max_speed_deg_per_s: [120.0, 120.0, 180.0, 180.0, 180.0, 180.0],
+    },
+    Sheet {
+        name: "ur20",
+        parameters: lengths(0.2363, -0.862, -0.7287, 0.201, 0.1593, 0.1543),
+        max_speed_deg_per_s: [120.0, 120.0, 150.0, 210.0, 210.0, 210.0],
+    },
+    Sheet {
+        name: "ur30",
+        parameters: lengths(0.2363, -0.637, -0.5037, 0.201, 0.1593, 0.1543),
+        max_speed_deg_per_s: [120.0, 120.0, 150.0, 210.0, 210.0, 210.0],
     },
 ];
 

@@ -11,6 +11,7 @@ use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
 use super::UrParameters;
 use super::inverse::{Branches, EXACT};
 use crate::geometry::{Point, Pose, Vector};
+use crate::robot::axis::Axis;
 use crate::robot::dh::chain_from_dh;
 use crate::robot::{Chain, DhConvention};
 
@@ -65,7 +66,7 @@ impl UrShape {
     }
 
     fn from_axes(chain: &Chain) -> Option<Self> {
-        let [a1, a2, a3, a4, a5, a6] = axes(chain)?;
+        let [a1, a2, a3, a4, a5, a6]: [Axis; 6] = Axis::all_of(chain).try_into().ok()?;
         let same_way = |axis: &Axis| if axis.along.dot(&a2.along) < 0.0 { -1.0 } else { 1.0 };
         let (s3, s4) = (same_way(&a3), same_way(&a4));
         let parallel = |x: &Axis| x.along.dot(&a2.along).abs() > 1.0 - SLANT;
@@ -130,38 +131,6 @@ impl UrShape {
     }
 }
 
-/// A joint's axis in the zero posture, in the base's frame.
-struct Axis {
-    point: Point,
-    along: Vector,
-}
-
-impl Axis {
-    /// The middle between the nearest points of two axes; `None` if they are parallel.
-    fn meets(&self, other: &Axis) -> Option<Point> {
-        let cosine = self.along.dot(&other.along);
-        let squared_sine = 1.0 - cosine * cosine;
-        if squared_sine < 1e-6 {
-            return None;
-        }
-        let between = other.point - self.point;
-        let (d, e) = (between.dot(&self.along), between.dot(&other.along));
-        let here = self.point + self.along * ((d - e * cosine) / squared_sine);
-        let there = other.point + other.along * ((d * cosine - e) / squared_sine);
-        Some(nalgebra::center(&here, &there))
-    }
-}
-
-fn axes(chain: &Chain) -> Option<[Axis; 6]> {
-    let mut poses = Vec::new();
-    chain.link_poses_into(&[], &mut poses);
-    let axes = poses.iter().skip(1).zip(chain.segments()).map(|(pose, segment)| Axis {
-        point: Point::from(pose.translation.vector),
-        along: pose.rotation * segment.axis_in_joint.into_inner(),
-    });
-    axes.collect::<Vec<_>>().try_into().ok()
-}
-
 /// The frame at `origin` with axes `x` and `z`, which are square to each other.
 fn frame(origin: &Point, x: &Vector, z: &Vector) -> Pose {
     let axes = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[*x, z.cross(x), *z]));
@@ -174,7 +143,7 @@ mod tests {
     use crate::robot::DhRow;
 
     fn ur5e_rows() -> [DhRow; 6] {
-        super::super::parameters::SHEETS[2].parameters.dh_rows()
+        super::super::parameters::SHEETS[3].parameters.dh_rows()
     }
 
     fn chain(rows: &[DhRow]) -> Chain {

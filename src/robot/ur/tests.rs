@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use proptest::prelude::*;
 
+use super::parameters::{NAMES, SHEETS};
 use crate::geometry::Pose;
 use crate::robot::{InverseSolutions, Kinematics, ReachBound, RobotModel, UnreachableReason};
 
@@ -33,10 +34,10 @@ proptest! {
 
     #[test]
     fn the_original_posture_is_among_the_branches(
-        model in 0usize..5,
+        model in 0usize..NAMES.len(),
         q in (proptest::array::uniform2(-PI..PI), -3.0..3.0f64, proptest::array::uniform3(-PI..PI)),
     ) {
-        let robot = arm(RobotModel::names()[model]);
+        let robot = arm(NAMES[model]);
         let q = [q.0[0], q.0[1], q.1, q.2[0], q.2[1], q.2[2]];
         let target = robot.kinematics.forward(&q);
         let answer = robot.kinematics.inverse(&target, &[]);
@@ -51,7 +52,7 @@ proptest! {
 
     #[test]
     fn singular_postures_keep_exact_solutions(
-        model in 0usize..5,
+        model in 0usize..NAMES.len(),
         mut q in proptest::array::uniform6(-3.0..3.0f64),
         which in 0usize..4,
         nudge in prop_oneof![Just(0.0), 1e-14..1e-6f64],
@@ -62,7 +63,7 @@ proptest! {
             2 => q[4] = PI - nudge,            // and the other way round
             _ => { q[2] = nudge; q[4] = -nudge; }
         }
-        let robot = arm(RobotModel::names()[model]);
+        let robot = arm(NAMES[model]);
         let target = robot.kinematics.forward(&q);
         let answer = robot.kinematics.inverse_near(&target, &q);
         check_all(robot.kinematics.as_ref(), &target, &answer);
@@ -154,7 +155,7 @@ fn a_solution_that_breaks_a_limit_names_the_joint_and_the_amount() {
         (joint.lower_rad, joint.upper_rad) = (-0.5, 0.5);
     }
     joints[0].upper_rad = 0.25;
-    let parameters = super::parameters::SHEETS[2].parameters;
+    let parameters = SHEETS[3].parameters;
     let kinematics = super::UrKinematics::new(parameters, joints).unwrap();
     let target = kinematics.forward(&[0.3, 0.1, 0.4, -0.2, 0.3, 0.1]);
     let failure = kinematics.inverse(&target, &[]).failure.unwrap();
@@ -175,7 +176,7 @@ fn the_nearest_solution_comes_first_and_wraps_towards_the_previous_state() {
 #[test]
 fn a_free_last_joint_turns_until_the_elbow_reaches() {
     // Nearly stretched, wrist axes parallel: only a few angles of the free joint leave the elbow room.
-    for name in RobotModel::names().into_iter().take(5) {
+    for name in NAMES {
         let robot = arm(name);
         let target = robot.kinematics.forward(&[0.3, -1.0, 0.3, -0.5, 0.0, 2.6]);
         let answer = robot.kinematics.inverse(&target, &[]);
@@ -186,7 +187,7 @@ fn a_free_last_joint_turns_until_the_elbow_reaches() {
 
 #[test]
 fn postures_of_everyday_work_do_not_touch_themselves() {
-    for name in RobotModel::names().into_iter().take(5) {
+    for name in NAMES {
         let robot = arm(name);
         for q in [
             [0.0; 6],

@@ -9,13 +9,14 @@ use super::tree::{Tree, element, turns};
 use crate::geometry::Pose;
 use crate::robot::described::{DEFAULT_RADIUS_M, JOINTS, kinematics_of, links_along};
 use crate::robot::error::short;
-use crate::robot::{Chain, Link, LinkShape, RobotError, RobotModel, Segment};
+use crate::robot::{Chain, Link, LinkShape, Meshes, RobotError, RobotModel, RobotWarning, Segment, Source};
 
 /// The arm between two links of a URDF; see [`RobotModel::from_urdf`].
 pub(in crate::robot) fn from_urdf(
     text: &str,
     base_link: Option<&str>,
     tip_link: Option<&str>,
+    meshes: &Meshes,
 ) -> Result<RobotModel, RobotError> {
     check_text(text)?;
     let robot = urdf_rs::read_from_string(text).map_err(|error| RobotError::Urdf(cut(&error.to_string())))?;
@@ -53,7 +54,7 @@ pub(in crate::robot) fn from_urdf(
         });
     }
     let chain = Chain::new(segments, pending)?;
-    let mut shapes = gather(&tree, base, &moving)?;
+    let mut shapes = gather(&tree, base, &moving, meshes)?;
     warnings.append(&mut shapes.warnings);
     let names = std::iter::once(tree.name(base)).chain(names);
     let links = links_with_stand_ins(&chain, names, shapes.shapes, &mut warnings);
@@ -64,16 +65,15 @@ pub(in crate::robot) fn from_urdf(
         links,
         base_frame: short(tree.name(base)),
         flange_frame: short(tree.name(tip)),
-        sources: vec![
-            "Geometry, position and speed limits: the request's URDF.".to_owned(),
-            format!(
-                "Acceleration limits: assumed, {} rad/s2 for every joint; URDF has none.",
-                RobotModel::ASSUMED_ACCELERATION_RAD_PER_S2
-            ),
-            "Link shapes: the URDF's collision boxes, cylinders, capsules and spheres; links without any \
-             get assumed capsules."
-                .to_owned(),
-        ],
+        dh: None,
+        sources: Source::of_model([
+            "the request's URDF.",
+            "the request's URDF.",
+            "the request's URDF; where it has none, assumed and listed in the warnings.",
+            "assumed, 5 rad/s2 for every joint: URDF has none.",
+            "the request's URDF: collision boxes, cylinders, capsules and spheres; links without any get \
+             assumed capsules.",
+        ]),
         warnings,
     })
 }
@@ -84,7 +84,7 @@ fn links_with_stand_ins<'a>(
     chain: &Chain,
     names: impl Iterator<Item = &'a str>,
     shapes: Vec<Vec<LinkShape>>,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<RobotWarning>,
 ) -> Vec<Link> {
     let mut assumed = Vec::new();
     let links = names
@@ -103,8 +103,9 @@ fn links_with_stand_ins<'a>(
         .collect();
     if !assumed.is_empty() {
         let names = assumed.join(", ");
-        warnings
-            .push(format!("capsules of {DEFAULT_RADIUS_M} m radius stand for links without shapes: {names}"));
+        warnings.push(RobotWarning::description(format!(
+            "capsules of {DEFAULT_RADIUS_M} m radius stand for links without shapes: {names}"
+        )));
     }
     links
 }

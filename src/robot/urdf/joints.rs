@@ -8,7 +8,7 @@ use super::tree::element;
 use crate::geometry::{Direction, Pose, Vector};
 use crate::robot::described::check_joint;
 use crate::robot::error::short;
-use crate::robot::{Joint, RobotError, RobotModel};
+use crate::robot::{Joint, RobotError, RobotModel, RobotWarning};
 
 /// Largest coordinate of an origin, metres; more looks like millimetres.
 const FARTHEST_M: f64 = 5.0;
@@ -39,7 +39,7 @@ pub(super) fn axis(joint: &urdf_rs::Joint) -> Result<Direction, RobotError> {
 }
 
 /// The limits of a turning joint; what the URDF lacks is assumed and said in `warnings`.
-pub(super) fn limits(joint: &urdf_rs::Joint, warnings: &mut Vec<String>) -> Result<Joint, RobotError> {
+pub(super) fn limits(joint: &urdf_rs::Joint, warnings: &mut Vec<RobotWarning>) -> Result<Joint, RobotError> {
     let name = short(&joint.name);
     if joint.mimic.is_some() {
         return Err(element(
@@ -50,18 +50,18 @@ pub(super) fn limits(joint: &urdf_rs::Joint, warnings: &mut Vec<String>) -> Resu
     }
     let continuous = joint.joint_type == urdf_rs::JointType::Continuous;
     let (lower_rad, upper_rad) = if continuous {
-        warnings.push(format!(
+        warnings.push(RobotWarning::description(format!(
             "{name} turns without end; plans keep it within one turn each way, +-{TAU:.4} rad"
-        ));
+        )));
         (-TAU, TAU)
     } else {
         (joint.limit.lower, joint.limit.upper)
     };
     let max_speed_rad_per_s = if joint.limit.velocity == 0.0 {
-        warnings.push(format!(
+        warnings.push(RobotWarning::description(format!(
             "{name} has no velocity limit, {} rad/s assumed",
             RobotModel::ASSUMED_SPEED_RAD_PER_S
-        ));
+        )));
         RobotModel::ASSUMED_SPEED_RAD_PER_S
     } else {
         joint.limit.velocity

@@ -108,12 +108,12 @@ fn shapes_of_fixed_links_belong_to_the_moving_link_and_meshes_are_named() {
             && matches!(last.shapes[1], LinkShape::Cuboid { .. })
     );
     assert!(
-        robot.warnings.iter().any(|w| w.contains("camera") && w.contains("mesh")),
+        robot.warnings.iter().any(|w| w.message.contains("camera") && w.message.contains("mesh")),
         "{:?}",
         robot.warnings
     );
     assert!(
-        robot.warnings.iter().any(|w| w.contains("forearm") && w.contains("stand for")),
+        robot.warnings.iter().any(|w| w.message.contains("forearm") && w.message.contains("stand for")),
         "{:?}",
         robot.warnings
     );

@@ -1,0 +1,27 @@
+//! A robot with a request's limits.
+
+use super::robot;
+use crate::api::problem::Problem;
+use crate::api::wire::{LimitsJson, RobotJson};
+use crate::robot::{JointLimits, RobotModel};
+
+/// The robot of a request, with the request's joint limits in place of its own.
+///
+/// # Errors
+/// 422 naming the joint and the member: those of the robot, a joint that it has not, and limits
+/// that no arm can have.
+pub fn limited_robot(json: &RobotJson, limits: Option<&LimitsJson>) -> Result<RobotModel, Problem> {
+    let model = robot(json)?;
+    let Some(limits) = limits else { return Ok(model) };
+    let limits = limits.iter().map(|(name, json)| {
+        let limits = JointLimits {
+            lower_rad: json.min,
+            upper_rad: json.max,
+            max_speed_rad_per_s: json.max_speed,
+            max_acceleration_rad_per_s2: json.max_acceleration,
+            max_jerk_rad_per_s3: json.max_jerk,
+        };
+        (name.as_str(), limits)
+    });
+    Ok(model.with_limits(limits)?)
+}
