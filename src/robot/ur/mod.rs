@@ -15,4 +15,6 @@ pub use parameters::UrParameters;
 pub(super) use recognise::UrShape;
 
 #[cfg(test)]
+mod million;
+#[cfg(test)]
 mod tests;
