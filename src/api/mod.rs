@@ -3,6 +3,7 @@
 //! `wire` is the JSON, `convert` its meaning, `errors` the refusals, `routes` the handlers, `store`
 //! the files, `executions` the runs. [`Planner`] serves the command line too.
 
+mod checker;
 mod config;
 mod convert;
 mod errors;
@@ -19,10 +20,11 @@ mod state;
 mod store;
 mod wire;
 
+pub use checker::check_plan;
 pub use config::ServiceConfig;
 pub use extract::{MAX_BODY_BYTES, parse_json};
 pub use openapi::openapi_json;
 pub use planner::{Planner, reachability_of};
 pub use problem::{Problem, ProblemJson};
 pub use server::serve;
-pub use wire::{PlanAnswer, PlanRequestJson, ReachabilityAnswer};
+pub use wire::{CheckAnswer, CheckedPlanJson, PlanAnswer, PlanRequestJson, ReachabilityAnswer};

@@ -4,7 +4,8 @@ use utoipa::OpenApi;
 
 use super::problem::ProblemJson;
 use super::routes::{
-    events, executions, health, images, objects, plans, predictions, reachability, robots, view_spaces,
+    checks, events, executions, health, images, objects, plans, predictions, reachability, robots,
+    view_spaces,
 };
 
 /// All routes; schemas follow from them.
@@ -20,7 +21,7 @@ use super::routes::{
             with a stable code; 422 names field, value and bound.",
     ),
     paths(
-        plans::create, plans::list, plans::get, predictions::create, reachability::create, view_spaces::get, robots::list, robots::get,
+        plans::create, plans::list, plans::get, plans::request, checks::create, predictions::create, reachability::create, view_spaces::get, robots::list, robots::get,
         executions::create, executions::list, executions::get, executions::cancel, events::stream, images::list,
         images::get, images::transforms, objects::list, health::live, health::ready,
     ),

@@ -18,8 +18,8 @@ use utoipa_swagger_ui::{Config, SwaggerUi};
 use super::openapi::openapi_json;
 use super::problem::Problem;
 use super::routes::{
-    events, executions, health, images, json_bytes, objects, plans, predictions, reachability, robots,
-    view_spaces,
+    checks, events, executions, health, images, json_bytes, objects, plans, predictions, reachability,
+    robots, view_spaces,
 };
 use super::state::AppState;
 
@@ -28,6 +28,8 @@ pub fn router(app: AppState) -> Router {
     let timed = Router::new()
         .route("/v1/plans", post(plans::create).get(plans::list))
         .route("/v1/plans/{id}", get(plans::get))
+        .route("/v1/plans/{id}/request", get(plans::request))
+        .route("/v1/checks", post(checks::create))
         .route("/v1/predictions", post(predictions::create))
         .route("/v1/reachability", post(reachability::create))
         .route("/v1/view-spaces/{n}", get(view_spaces::get))

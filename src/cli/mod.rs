@@ -2,6 +2,8 @@
 
 mod camera_flag;
 mod capture;
+mod check;
+mod check_random;
 mod health;
 mod inputs;
 mod label;
@@ -35,6 +37,8 @@ struct Cli {
 enum Command {
     /// Photograph an object with the simulated camera.
     Capture(capture::Args),
+    /// Check a plan, or plans of random cells.
+    Check(check::Args),
     /// Ask a running service whether it is ready.
     Health(health::Args),
     /// Render the initial photos of labelled objects, cut for training.
@@ -68,13 +72,15 @@ enum Command {
 /// What a subcommand returns: an error is printed to stderr and becomes exit code 1.
 pub type CliResult = Result<(), Box<dyn std::error::Error>>;
 
-/// Parses the command line and runs it. Exit codes: 0 done, 1 failed, 2 bad usage (clap).
+/// Parses the command line and runs it. Exit codes: 0 done, 1 failed, 2 bad usage (clap); those of
+/// `check` are its own.
 pub fn run() -> ExitCode {
     // Without a subcommand the program serves, so that `cargo run --release` does.
     let words: Vec<_> = std::env::args_os().collect();
     let cli = if words.len() == 1 { Cli::parse_from(["prv", "serve"]) } else { Cli::parse_from(words) };
     let result: CliResult = match cli.command {
         Command::Capture(args) => capture::run(&args),
+        Command::Check(args) => return check::run(&args),
         Command::Health(args) => health::run(&args),
         Command::Inputs(args) => inputs::run(&args),
         Command::Label(args) => label::run(&args),

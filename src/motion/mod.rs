@@ -26,6 +26,7 @@ mod reach;
 mod request;
 mod resolve;
 mod rounded;
+mod s_curve;
 mod scene;
 mod shape;
 mod sweep;
@@ -36,7 +37,9 @@ mod trapezoid;
 mod tests;
 
 pub use cell::{Cell, KeepOut, LARGEST_LENGTH_M, d435_body, default_camera_body};
-pub use check::{Violation, check};
+pub use check::{
+    Claim, ClaimedView, Looked, Nearest, UNDERCUT_BOUND_M, Verdict, Violation, check, check_claim,
+};
 pub use contact::{Contact, ContactKind};
 pub use error::MotionError;
 pub use fixed_overlaps::fixed_overlaps;

@@ -26,13 +26,15 @@ use super::trajectory::timed;
 /// ordering function that returns no permutation, a trajectory too long to store.
 pub fn plan_motion(request: &MotionRequest) -> Result<MotionPlan, MotionError> {
     check_request(request)?;
-    let scene = Scene::new(request.cell);
+    let mut scene = Scene::new(request.cell);
     let mut placement = Placement::default();
     let robot = &request.cell.robot;
     let (start, clamped_start) = match request.start {
         Some(given) => {
             let (state, clamped) = robot.clamp_start(given)?;
-            (Some(start_state(&scene, &state, &mut placement)?), clamped)
+            let start = start_state(&scene, &state, &mut placement)?;
+            scene.excuse(&start.joints, &mut placement);
+            (Some(start), clamped)
         }
         None => (None, Vec::new()),
     };
@@ -104,7 +106,7 @@ fn check_request(request: &MotionRequest) -> Result<(), MotionError> {
             return Err(MotionError::NotFinite { field: format!("views[{i}]") });
         }
     }
-    let Timing { speed_scale, settle_s, sample_period_s } = request.timing;
+    let Timing { speed_scale, settle_s, sample_period_s, .. } = request.timing;
     for (field, value, (least, most)) in [
         ("speed_scale", speed_scale, Timing::SPEED_SCALE),
         ("settle_s", settle_s, Timing::SETTLE_S),

@@ -2,6 +2,7 @@
 
 use super::cell::Cell;
 use crate::geometry::Pose;
+use crate::robot::Joint;
 
 /// Freedom of the camera to turn about its optical axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,12 +63,16 @@ impl std::fmt::Debug for Order<'_> {
 /// How the motion is timed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
-    /// Fraction of the joints' speed limits used, in (0, 1]; accelerations are scaled by its square.
+    /// Fraction of the joints' speed limits used, in (0, 1]; accelerations are scaled by its square,
+    /// jerks by its cube.
     pub speed_scale: f64,
     /// How long the arm stands still at each view before it moves on, seconds.
     pub settle_s: f64,
     /// Largest distance between points of the trajectory while the arm moves, seconds.
     pub sample_period_s: f64,
+    /// Whether jerk is bounded too: every leg is an S-curve, and a detour stops at its corners,
+    /// since a rounding that joins a line makes the acceleration jump.
+    pub jerk_limited: bool,
 }
 
 impl Timing {
@@ -77,11 +82,19 @@ impl Timing {
     pub const SETTLE_S: (f64, f64) = (0.0, 60.0);
     /// Least and most of [`Timing::sample_period_s`].
     pub const SAMPLE_PERIOD_S: (f64, f64) = (1e-3, 1.0);
+    /// Where a robot has no jerk limit and one is asked for, its acceleration limit is reached in
+    /// this time, seconds. Assumed: makers of such arms publish none; it is gentle for all of them.
+    pub const ASSUMED_JERK_RISE_S: f64 = 0.05;
+
+    /// The jerk limit of a joint, rad/s3: its own, or the assumed one.
+    pub fn jerk_limit_rad_per_s3(joint: &Joint) -> f64 {
+        joint.max_jerk_rad_per_s3.unwrap_or(joint.max_acceleration_rad_per_s2 / Self::ASSUMED_JERK_RISE_S)
+    }
 }
 
 impl Default for Timing {
     fn default() -> Self {
-        Self { speed_scale: 1.0, settle_s: 0.3, sample_period_s: 0.04 }
+        Self { speed_scale: 1.0, settle_s: 0.3, sample_period_s: 0.04, jerk_limited: false }
     }
 }
 

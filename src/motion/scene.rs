@@ -10,6 +10,7 @@ use super::distance::{segment_point, segment_segment, shape_bottom, shape_point,
 use super::joints::{Joints, MAX_JOINTS, joints_from};
 use super::levers::Levers;
 use super::shape::{Core, carried_by, core};
+use super::sweep::RESOLUTION_M;
 use crate::geometry::{Point, Pose};
 use crate::robot::LinkShape;
 
@@ -54,6 +55,8 @@ pub(crate) struct Pair {
     body: usize,
     other: Other,
     pub margin_m: f64,
+    /// By how much the start state undercuts the margin, and with it the way out of it may, metres.
+    pub relief_m: f64,
     /// Metres of relative motion for a radian of each joint, at most.
     pub levers_m: Joints,
 }
@@ -103,6 +106,7 @@ impl<'a> Scene<'a> {
                         body: i,
                         other: Other::Body(k),
                         margin_m: self.cell.self_margin_m,
+                        relief_m: 0.0,
                         levers_m,
                     });
                 }
@@ -138,7 +142,7 @@ impl<'a> Scene<'a> {
         let mut pairs = Vec::new();
         for (body, b) in self.bodies.iter().enumerate() {
             let levers_m = levers.of_shape(b.link, &b.core);
-            let mut add = |other| pairs.push(Pair { body, other, margin_m, levers_m });
+            let mut add = |other| pairs.push(Pair { body, other, margin_m, relief_m: 0.0, levers_m });
             for (i, fixed) in self.fixed.iter().enumerate() {
                 // Where the base stands is no question of the motion.
                 if b.link == 0 && fixed.kind == ContactKind::Obstacle {
@@ -220,6 +224,18 @@ impl<'a> Scene<'a> {
             Other::Fixed(i) => self.fixed.get(i).map_or(f64::INFINITY, |fixed| {
                 shape_shape(&pose, &body.shape, &Pose::identity(), &fixed.shape)
             }),
+        }
+    }
+
+    /// Remembers by how much each pair undercuts its margin at the start state `q`, for sweeps with relief.
+    pub fn excuse(&mut self, q: &Joints, placement: &mut Placement) {
+        self.place(q, placement);
+        for i in 0..self.pairs.len() {
+            let margin_m = self.pairs.get(i).map_or(0.0, |pair| pair.margin_m);
+            let under_m = margin_m - self.clearance(i, placement, margin_m);
+            if let Some(pair) = self.pairs.get_mut(i).filter(|_| under_m > 0.0) {
+                pair.relief_m = under_m + RESOLUTION_M;
+            }
         }
     }
 

@@ -33,7 +33,8 @@ struct Interval {
 
 impl Sweeper {
     /// Whether every path whose joints stay within `deviation` of the straight
-    /// move from `from` to `to` keeps every margin less `relief_m`.
+    /// move from `from` to `to` keeps every margin, less
+    /// `relief_m` where the start state undercuts it, and no more than it does there.
     pub fn is_free(
         &mut self,
         scene: &Scene,
@@ -67,7 +68,7 @@ impl Sweeper {
                 else {
                     continue;
                 };
-                let margin = pair.margin_m - relief_m;
+                let margin = pair.margin_m - relief_m.min(pair.relief_m);
                 let travel = interval.half * pair_motion(&pair.levers_m, &step)
                     + pair_motion(&pair.levers_m, deviation);
                 let enough = margin + (travel - RESOLUTION_M).max(0.0);

@@ -7,17 +7,73 @@ use super::plan::TrajectoryPoint;
 use super::request::Timing;
 use super::resolve::Stop;
 use super::rounded::rounded;
+use super::s_curve::SCurve;
 use super::scene::Scene;
 use super::sweep::Sweeper;
 use super::trapezoid::Trapezoid;
+use crate::robot::Joint;
 
 /// Most points of a trajectory.
 pub const MOST_POINTS: usize = 1_000_000;
 
 /// A motion from rest to rest.
 enum Run {
-    Straight { from: Joints, step: Joints, progress: Trapezoid },
+    Straight { from: Joints, step: Joints, progress: Progress },
     Along(AlongPath),
+}
+
+/// Progress along a straight move.
+enum Progress {
+    Trapezoid(Trapezoid),
+    SCurve(SCurve),
+}
+
+/// What bounds the joints, scaled by the timing.
+struct Bounds {
+    speed: Joints,
+    acceleration: Joints,
+    /// `None` where jerk is not bounded.
+    jerk: Option<Joints>,
+}
+
+impl Progress {
+    fn duration_s(&self) -> f64 {
+        match self {
+            Progress::Trapezoid(progress) => progress.duration_s(),
+            Progress::SCurve(progress) => progress.duration_s(),
+        }
+    }
+
+    fn at(&self, t_s: f64) -> (f64, f64, f64) {
+        match self {
+            Progress::Trapezoid(progress) => progress.at(t_s),
+            Progress::SCurve(progress) => progress.at(t_s),
+        }
+    }
+}
+
+impl Bounds {
+    fn new(joints: &[Joint], timing: &Timing) -> Self {
+        let scale = timing.speed_scale;
+        let scaled = |limit: fn(&Joint) -> f64, by: f64| {
+            let limits: Vec<f64> = joints.iter().map(|joint| limit(joint) * by).collect();
+            joints_from(&limits)
+        };
+        Self {
+            speed: scaled(|j| j.max_speed_rad_per_s, scale),
+            acceleration: scaled(|j| j.max_acceleration_rad_per_s2, scale * scale),
+            jerk: timing.jerk_limited.then(|| scaled(Timing::jerk_limit_rad_per_s3, scale.powi(3))),
+        }
+    }
+
+    fn straight(&self, from: &Joints, to: &Joints) -> Run {
+        let step = difference(from, to);
+        let progress = match &self.jerk {
+            None => Progress::Trapezoid(Trapezoid::new(&step, &self.speed, &self.acceleration)),
+            Some(jerk) => Progress::SCurve(SCurve::new(&step, &self.speed, &self.acceleration, jerk)),
+        };
+        Run::Straight { from: *from, step, progress }
+    }
 }
 
 impl Run {
@@ -55,12 +111,7 @@ pub(crate) fn timed(
     first_relief_m: f64,
     timing: &Timing,
 ) -> Result<Timed, MotionError> {
-    let joints = &scene.cell.robot.joints;
-    let scale = timing.speed_scale;
-    let speeds: Vec<f64> = joints.iter().map(|j| j.max_speed_rad_per_s * scale).collect();
-    let accelerations: Vec<f64> =
-        joints.iter().map(|j| j.max_acceleration_rad_per_s2 * scale * scale).collect();
-    let (max_speed, max_acceleration) = (joints_from(&speeds), joints_from(&accelerations));
+    let bounds = Bounds::new(&scene.cell.robot.joints, timing);
     let mut recorder = Recorder { dof: scene.dof, now_s: 0.0, points: Vec::new() };
     let mut arrivals_s = Vec::with_capacity(stops.len());
     if let (Some(start), false) = (start, stops.is_empty()) {
@@ -70,10 +121,18 @@ pub(crate) fn timed(
         let relief_m = if i == 0 { first_relief_m } else { 0.0 };
         let runs = match stop.waypoints.as_slice() {
             [] => Vec::new(),
-            [from, to] => vec![straight(from, to, &max_speed, &max_acceleration)],
+            [from, to] => vec![bounds.straight(from, to)],
+            waypoints if bounds.jerk.is_some() => {
+                let pieces = waypoints.windows(2).filter(|pair| pair.first() != pair.last());
+                let run = |pair: &[Joints]| match pair {
+                    [from, to] => Some(bounds.straight(from, to)),
+                    _ => None,
+                };
+                pieces.filter_map(run).collect()
+            }
             waypoints => rounded(scene, sweeper, waypoints, relief_m)
                 .into_iter()
-                .map(|pieces| Run::Along(AlongPath::new(pieces, &max_speed, &max_acceleration)))
+                .map(|pieces| Run::Along(AlongPath::new(pieces, &bounds.speed, &bounds.acceleration)))
                 .collect(),
         };
         for run in &runs {
@@ -87,11 +146,6 @@ pub(crate) fn timed(
         }
     }
     Ok(Timed { points: recorder.points, arrivals_s })
-}
-
-fn straight(from: &Joints, to: &Joints, max_speed: &Joints, max_acceleration: &Joints) -> Run {
-    let step = difference(from, to);
-    Run::Straight { from: *from, step, progress: Trapezoid::new(&step, max_speed, max_acceleration) }
 }
 
 struct Recorder {

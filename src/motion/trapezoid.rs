@@ -88,6 +88,34 @@ mod tests {
         }
     }
 
+    proptest! {
+        #[test]
+        fn no_motion_within_the_limits_is_faster(
+            d in 1e-2..6.0f64, e in 1e-2..6.0f64, v in 0.1..4.0f64, w in 0.1..4.0f64, a in 0.1..20.0f64, b in 0.1..20.0f64,
+        ) {
+            // On a straight joint move from rest, no joint can be faster at progress s than its
+            // speed limit, than what its acceleration gives until s, and than what it can still
+            // brake: the integral of the inverse of the slowest of all is a lower bound.
+            let (mut step, mut speed, mut acceleration) = ([0.0; 8], [1.0; 8], [1.0; 8]);
+            (step[0], step[1], speed[0], speed[1], acceleration[0], acceleration[1]) = (d, -e, v, w, a, b);
+            let fastest = |s: f64| {
+                let joint = |d: f64, v: f64, a: f64| (v / d).min((2.0 * a / d * s.min(1.0 - s)).sqrt());
+                joint(d, v, a).min(joint(e, w, b))
+            };
+            let n = 20_000;
+            // Midpoints of equal steps in the angle of s = (1 - cos u) / 2: dense where the speed is 0.
+            let bound: f64 = (0..n)
+                .map(|i| {
+                    let du = std::f64::consts::PI / f64::from(n);
+                    let u = du * (f64::from(i) + 0.5);
+                    0.5 * u.sin() * du / fastest(0.5 * (1.0 - u.cos()))
+                })
+                .sum();
+            let found = Trapezoid::new(&step, &speed, &acceleration).duration_s();
+            prop_assert!(found <= bound * (1.0 + 1e-4) && found >= bound * (1.0 - 1e-4), "{found} {bound}");
+        }
+    }
+
     #[test]
     fn a_move_of_nothing_takes_a_millisecond() {
         let profile = Trapezoid::new(&[0.0; 8], &[1.0; 8], &[1.0; 8]);

@@ -14,11 +14,13 @@ mod hand_eye;
 mod make_plan;
 mod photos;
 mod predict_count;
+mod random_cell;
 mod reachability;
 mod request;
 mod skip_reason;
 mod surroundings;
 mod trajectory;
+mod verify;
 mod view_poses;
 
 pub use answer::{
@@ -30,7 +32,9 @@ pub use error::{FieldValue, PlanError};
 pub use make_plan::make_plan;
 pub use photos::{MAX_PHOTOS, expected_views};
 pub use predict_count::{CountPrediction, predict_count};
+pub use random_cell::{RandomCells, RandomOutcome};
 pub use reachability::{Place, Reachability, reachability};
 pub use request::{Arm, ObjectSphere, PlanRequest, UnreachableViews, ViewShell, ViewSource};
 pub use surroundings::{MAX_KEEP_OUT, MAX_SOLIDS, Surroundings, cell, check_solid};
 pub use trajectory::{Trajectory, TrajectoryPoint};
+pub use verify::{ClaimedPlan, Finding, PlanVerdict, verify};

@@ -79,7 +79,20 @@ pub(super) fn check(request: &PlanRequest, arm: &Arm) -> Result<Vec<Warning>, Pl
             format!("{part}, which does not move, stands in the keep-out region {region}: not looked at");
         Warning::new("base_in_keep_out", text)
     };
-    Ok(overlaps.into_iter().map(warning).collect())
+    Ok(overlaps.into_iter().map(warning).chain(assumed_jerk(arm)).collect())
+}
+
+fn assumed_jerk(arm: &Arm) -> Option<Warning> {
+    let without = arm.model.joints.iter().filter(|joint| joint.max_jerk_rad_per_s3.is_none());
+    let names: Vec<&str> = without.map(|joint| joint.name.as_str()).collect();
+    (arm.timing.jerk_limited && !names.is_empty()).then(|| {
+        let text = format!(
+            "no jerk limit is known of {}: one that reaches the acceleration limit in {} s is assumed",
+            names.join(", "),
+            Timing::ASSUMED_JERK_RISE_S
+        );
+        Warning::new("assumed_jerk", text)
+    })
 }
 
 fn check_timing(timing: &Timing) -> Result<(), PlanError> {

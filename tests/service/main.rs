@@ -4,6 +4,7 @@ mod adapted_views;
 mod cancel;
 mod capture;
 mod cell_bounds;
+mod checks;
 mod determinism;
 mod events;
 mod execution_refusals;

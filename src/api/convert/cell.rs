@@ -23,5 +23,10 @@ pub fn surroundings(json: &PlanRequestJson) -> Result<Surroundings, Problem> {
 /// The timing; its numbers are checked with the plan's request.
 pub fn timing(json: Option<&TimingJson>) -> Timing {
     let json = json.copied().unwrap_or_default();
-    Timing { speed_scale: json.speed_scale, settle_s: json.settle, sample_period_s: json.sample_period }
+    Timing {
+        speed_scale: json.speed_scale,
+        settle_s: json.settle,
+        sample_period_s: json.sample_period,
+        jerk_limited: json.jerk_limited,
+    }
 }

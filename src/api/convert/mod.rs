@@ -3,6 +3,7 @@
 mod answer;
 mod camera;
 mod cell;
+mod check;
 mod images;
 mod limits;
 mod object;
@@ -16,6 +17,7 @@ mod solid;
 pub use answer::{expected_views, plan_answer, timings_json, trajectory, warnings_json};
 pub use camera::{camera, camera_json};
 pub use cell::{surroundings, timing};
+pub use check::{check_answer, claimed_plan};
 pub use images::{MAX_IMAGE_PIXELS, base64_bytes, images};
 pub use limits::limited_robot;
 pub use object::object;

@@ -1,5 +1,6 @@
 //! Handlers, one file a group of routes.
 
+pub mod checks;
 pub mod events;
 pub mod executions;
 pub mod health;

@@ -75,3 +75,22 @@ pub async fn get(State(app): State<AppState>, PathParam(id): PathParam<String>) 
         None => Err(Problem::not_found("unknown_plan", "id", &id, "the id of a stored plan")),
     }
 }
+
+/// The request of a stored plan in its canonical form, without its photos.
+#[utoipa::path(
+    get, path = "/v1/plans/{id}/request", tag = "plans", params(("id" = String, Path, description = "The plan's id")),
+    responses(
+        (status = 200, description = "The request", body = PlanRequestJson),
+        (status = 404, description = "No such plan", body = ProblemJson, content_type = "application/problem+json"),
+    )
+)]
+pub async fn request(
+    State(app): State<AppState>,
+    PathParam(id): PathParam<String>,
+) -> Result<Response, Problem> {
+    let (plans, wanted) = (app.plans, id.clone());
+    match off_thread(move || Ok(plans.request(&wanted)?)).await? {
+        Some(bytes) => Ok(json_bytes(bytes)),
+        None => Err(Problem::not_found("unknown_plan", "id", &id, "the id of a stored plan")),
+    }
+}

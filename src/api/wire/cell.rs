@@ -109,17 +109,22 @@ fn upright() -> [f64; 4] {
 #[schema(as = Timing, example = json!({"speed_scale": 0.5, "settle": 0.3}))]
 pub struct TimingJson {
     /// Share of the joints' speed limits that is used, 0.01 to 1; accelerations are scaled by its
-    /// square, so that the motion is the same, slower. 1 when left out.
+    /// square
+    /// (and jerks by its cube), so that the motion is the same, slower. 1 when left out.
     pub speed_scale: f64,
     /// How long the arm stands still at each view, seconds, 0 to 60; 0.3 when left out.
     pub settle: f64,
     /// Longest time between two points of the trajectory while the arm moves, seconds, 0.001 to 1;
     /// 0.04 when left out.
     pub sample_period: f64,
+    /// Whether the joints' jerk is bounded too. Every leg is then an S-curve from rest to rest, and
+    /// detours stop at their corners. Where the robot has no jerk limit, one that reaches the
+    /// acceleration limit in 0.05 s is assumed, with a warning. false when left out.
+    pub jerk_limited: bool,
 }
 
 impl Default for TimingJson {
     fn default() -> Self {
-        Self { speed_scale: 1.0, settle: 0.3, sample_period: 0.04 }
+        Self { speed_scale: 1.0, settle: 0.3, sample_period: 0.04, jerk_limited: false }
     }
 }

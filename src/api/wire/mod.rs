@@ -5,6 +5,7 @@
 
 mod camera;
 mod cell;
+mod check;
 mod execution;
 mod limits;
 mod object;
@@ -19,6 +20,7 @@ mod view_space;
 
 pub use camera::CameraJson;
 pub use cell::{BoxJson, CapsuleJson, CylinderJson, KeepOutJson, SolidJson, SphereJson, TimingJson};
+pub use check::{CheckAnswer, CheckedJson, CheckedPlanJson, ClearanceJson, CreateCheck, ViolationJson};
 pub use execution::{
     BackgroundJson, CreateExecution, ExecutionImages, ExecutionJson, ExecutionList, ExecutionObject,
     ExecutionStateJson, JointsJson, ObjectSummary, ProgressJson,

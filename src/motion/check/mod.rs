@@ -1,110 +1,137 @@
-//! An independent judge of plans.
+//! An independent judge of motions.
 //!
 //! Nothing of the planner is used here but its types: forward kinematics and
-//! the request's own numbers, parry for every distance, dense samples instead
-//! of bounds, finite differences instead of formulas.
+//! the request's own numbers, parry for every distance, levers of its own,
+//! finite differences instead of formulas. It needs no more than what a plan's
+//! JSON holds, since a controller may have changed the trajectory.
 
+mod levers;
+mod passage;
 mod solids;
 mod time_law;
 mod views;
+mod violation;
 
-use super::plan::MotionPlan;
-use super::request::MotionRequest;
-use solids::Solids;
-
-/// Something wrong with a plan.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Violation {
-    /// A point's vectors have the wrong length, or hold a NaN or infinity.
-    #[error("point {point}: malformed")]
-    Malformed {
-        /// Index of the point.
-        point: usize,
-    },
-    /// Time does not increase.
-    #[error("point {point}: time {time_s} s is not after the one before")]
-    Time {
-        /// Index of the point.
-        point: usize,
-        /// Its time.
-        time_s: f64,
-    },
-    /// A joint beyond its position, speed or acceleration limit.
-    #[error("point {point}: {quantity} of joint {joint} is {value}, its limit {limit}")]
-    Limit {
-        /// Index of the point.
-        point: usize,
-        /// What is beyond.
-        quantity: &'static str,
-        /// Index of the joint.
-        joint: usize,
-        /// Its value, rad, rad/s or rad/s2.
-        value: f64,
-        /// The limit.
-        limit: f64,
-    },
-    /// Positions do not follow from velocities.
-    #[error("point {point}: joint {joint} jumps by {jump_rad} rad")]
-    Jump {
-        /// Index of the point.
-        point: usize,
-        /// Index of the joint.
-        joint: usize,
-        /// Difference to the motion its velocities give, radians.
-        jump_rad: f64,
-    },
-    /// The motion does not begin at the start state.
-    #[error("the motion does not begin at the start state")]
-    Start,
-    /// A planned view is not visited as it should be.
-    #[error("view {view}: {problem}")]
-    View {
-        /// Index of the view.
-        view: usize,
-        /// What is wrong.
-        problem: &'static str,
-    },
-    /// The camera is not where a view wants it.
-    #[error("view {view}: camera is {position_m} m and {rotation_rad} rad off")]
-    PoseError {
-        /// Index of the view.
-        view: usize,
-        /// Distance, metres.
-        position_m: f64,
-        /// Angle, radians.
-        rotation_rad: f64,
-    },
-    /// Two bodies come too near.
-    #[error("{time_s:.3} s: {first} and {second} are {distance_m:.4} m apart, margin {margin_m:.4} m")]
-    TooNear {
-        /// Time, seconds.
-        time_s: f64,
-        /// A link or the camera.
-        first: String,
-        /// What it comes too near to.
-        second: String,
-        /// Their distance, metres; negative when they overlap.
-        distance_m: f64,
-        /// The margin asked for.
-        margin_m: f64,
-    },
-}
+use super::cell::Cell;
+use super::plan::{MotionPlan, TrajectoryPoint, ViewOutcome};
+use super::request::{MotionRequest, Roll, Timing};
+use crate::geometry::Pose;
+use passage::Passage;
+pub use passage::UNDERCUT_BOUND_M;
+pub use violation::Violation;
 
 /// Most violations listed.
 const MOST_VIOLATIONS: usize = 100;
 
-/// Everything that is wrong with `plan` as an answer to `request`; empty for a sound plan.
+/// A view as a motion claims to take it.
+#[derive(Clone, Copy, Debug)]
+pub struct ClaimedView {
+    /// `base_from_camera`.
+    pub base_from_camera: Pose,
+    /// Whether the motion visits it.
+    pub planned: bool,
+}
+
+/// A motion and what it claims to be.
+#[derive(Clone, Copy, Debug)]
+pub struct Claim<'a> {
+    /// The cell.
+    pub cell: &'a Cell,
+    /// Joint state before the motion, radians; one on its limit may have been up to
+    /// [`crate::robot::START_TOLERANCE_RAD`] outside.
+    pub start: Option<&'a [f64]>,
+    /// Whether the turn about the optical axis is free.
+    pub roll: Roll,
+    /// What the motion's timing was to be.
+    pub timing: Timing,
+    /// The views.
+    pub views: &'a [ClaimedView],
+    /// The visited ones in order, indices into `views`.
+    pub order: &'a [usize],
+    /// The motion.
+    pub trajectory: &'a [TrajectoryPoint],
+}
+
+/// The two parts that come nearest to each other, and when.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Nearest {
+    /// Signed distance, metres.
+    pub distance_m: f64,
+    /// A link, the camera or the tool.
+    pub first: String,
+    /// What it is near to.
+    pub second: String,
+    /// Seconds.
+    pub time_s: f64,
+}
+
+/// What was looked at, and its extremes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Looked {
+    /// Joint states at which distances were taken.
+    pub states: usize,
+    /// Smallest distance to object, table and keep-out regions.
+    pub nearest: Option<Nearest>,
+    /// Smallest distance between parts of the arm.
+    pub nearest_self: Option<Nearest>,
+    /// Largest share of a joint's scaled speed limit.
+    pub speed_share: f64,
+    /// Largest share of a joint's scaled acceleration limit, from differences of speeds.
+    pub acceleration_share: f64,
+    /// Largest share of a joint's scaled jerk limit, from differences of accelerations; 0 where
+    /// jerk is not bounded.
+    pub jerk_share: f64,
+    /// Largest distance of a camera from its view's pose, metres.
+    pub pose_error_m: f64,
+    /// Largest angle of a camera to its view's pose, radians.
+    pub pose_error_rad: f64,
+}
+
+/// A verdict.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Verdict {
+    /// What is wrong, at most 100 entries; empty for a sound motion.
+    pub violations: Vec<Violation>,
+    /// What was looked at.
+    pub looked: Looked,
+}
+
+/// Everything that is wrong with a motion.
 ///
-/// Positions are interpolated by cubic splines between points and looked at
-/// every 0.02 rad; margins may be undercut by a millimetre, and until the
-/// first view by as much as the start state undercuts them.
-pub fn check(request: &MotionRequest, plan: &MotionPlan) -> Vec<Violation> {
-    let mut violations = Vec::new();
-    let well_formed = time_law::judge(request, plan, &mut violations);
-    views::judge(request, plan, &mut violations);
+/// Positions are interpolated by cubic splines between points. No pair of parts comes nearer than
+/// its margin less a millimetre anywhere on them: between two looked-at states levers bound how
+/// far joints can carry a part, and the time between is halved until that decides. Until the first
+/// view a margin may be undercut by as much as the start state undercuts it.
+pub fn check_claim(claim: &Claim) -> Verdict {
+    let mut verdict = Verdict::default();
+    let well_formed = time_law::judge(claim, &mut verdict);
+    views::judge(claim, well_formed, &mut verdict);
     if well_formed {
-        Solids::new(request.cell).judge(plan, &mut violations);
+        Passage::new(claim.cell).judge(claim.trajectory, &mut verdict);
     }
-    violations.truncate(MOST_VIOLATIONS);
-    violations
+    verdict.violations.truncate(MOST_VIOLATIONS);
+    verdict
+}
+
+/// Everything that is wrong with `plan` as an answer to `request`; see [`check_claim`].
+pub fn check(request: &MotionRequest, plan: &MotionPlan) -> Vec<Violation> {
+    let views: Vec<ClaimedView> = request
+        .views
+        .iter()
+        .enumerate()
+        .map(|(i, pose)| ClaimedView {
+            base_from_camera: *pose,
+            planned: matches!(plan.views.get(i), Some(ViewOutcome::Planned(_))),
+        })
+        .collect();
+    let claim = Claim {
+        cell: request.cell,
+        start: request.start,
+        roll: request.roll,
+        timing: request.timing,
+        views: &views,
+        order: &plan.order,
+        trajectory: &plan.trajectory,
+    };
+    check_claim(&claim).violations
 }

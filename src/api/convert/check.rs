@@ -1,0 +1,75 @@
+//! Checks of plans.
+
+use super::{pose, trajectory};
+use crate::api::problem::Problem;
+use crate::api::wire::{
+    CheckAnswer, CheckedJson, CheckedPlanJson, ClearanceJson, ViewStatusJson, ViolationJson,
+};
+use crate::motion::{ClaimedView, Nearest, UNDERCUT_BOUND_M};
+use crate::plan::{ClaimedPlan, Finding, PlanRequest, PlanVerdict};
+
+/// What the plan claims.
+///
+/// # Errors
+/// 422 for ids that do not count from 0, and for poses that are none.
+pub fn claimed_plan(json: CheckedPlanJson) -> Result<ClaimedPlan, Problem> {
+    let mut views = Vec::with_capacity(json.views.len());
+    for (index, view) in json.views.iter().enumerate() {
+        if view.id as usize != index {
+            let field = format!("plan.views[{index}].id");
+            return Err(Problem::field("view_ids", field, view.id, format!("{index}: ids count from 0")));
+        }
+        views.push(ClaimedView {
+            base_from_camera: pose(&format!("plan.views[{index}].pose"), &view.pose)?,
+            planned: view.status == ViewStatusJson::Planned,
+        });
+    }
+    let motion = json.trajectory.map(trajectory);
+    let (joint_names, points) = motion.map_or_else(Default::default, |m| (m.joint_names, m.points));
+    Ok(ClaimedPlan { views, order: json.order.iter().map(|id| *id as usize).collect(), joint_names, points })
+}
+
+/// The verdict's JSON.
+pub fn check_answer(request: &PlanRequest, plan: &ClaimedPlan, verdict: PlanVerdict) -> CheckAnswer {
+    let looked = verdict.looked;
+    let has_jerk = request.arm.as_ref().is_some_and(|arm| arm.timing.jerk_limited);
+    let unjudged = verdict.findings.iter().any(|f| f.code == "not_proven") || looked.states == 0;
+    CheckAnswer {
+        sound: verdict.findings.is_empty(),
+        violations: verdict.findings.into_iter().map(violation).collect(),
+        checked: CheckedJson {
+            views: plan.views.len() as u32,
+            points: plan.points.len() as u32,
+            seconds: plan.points.last().map_or(0.0, |point| point.time_s),
+            states: looked.states as u64,
+            undercut_bound_m: (!unjudged).then_some(UNDERCUT_BOUND_M),
+            smallest_clearance: looked.nearest.map(clearance),
+            smallest_self_clearance: looked.nearest_self.map(clearance),
+            largest_speed_share: looked.speed_share,
+            largest_acceleration_share: looked.acceleration_share,
+            largest_jerk_share: has_jerk.then_some(looked.jerk_share),
+            largest_pose_error_m: looked.pose_error_m,
+            largest_pose_error_rad: looked.pose_error_rad,
+        },
+    }
+}
+
+fn violation(finding: Finding) -> ViolationJson {
+    // A number that JSON cannot hold stands in the message.
+    let finite = finding.numbers.iter().filter(|(_, number)| number.is_finite());
+    ViolationJson {
+        code: finding.code.to_owned(),
+        numbers: finite.map(|(name, number)| ((*name).to_owned(), *number)).collect(),
+        time: finding.time_s,
+        parts: finding.parts,
+        message: finding.message,
+    }
+}
+
+fn clearance(nearest: Nearest) -> ClearanceJson {
+    ClearanceJson {
+        distance_m: nearest.distance_m,
+        between: [nearest.first, nearest.second],
+        time: nearest.time_s,
+    }
+}

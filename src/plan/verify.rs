@@ -1,0 +1,198 @@
+//! Whether a plan is what its request asks for: from the plan's own numbers, whoever wrote them.
+
+use super::{Arm, PlanRequest, TrajectoryPoint, ViewSource, cell};
+use crate::geometry::{Pose, Vector};
+use crate::motion::{self, Claim, ClaimedView, Looked, Roll, check_claim};
+
+/// What counts as rounding: metres and radians.
+const TOLERANCE: f64 = 1e-5;
+/// Most findings.
+const MOST_FINDINGS: usize = 100;
+
+/// A plan as its JSON claims it to be.
+#[derive(Clone, Debug, Default)]
+pub struct ClaimedPlan {
+    /// The views, by id.
+    pub views: Vec<ClaimedView>,
+    /// Ids of the visited ones in order.
+    pub order: Vec<usize>,
+    /// Joint names of the trajectory.
+    pub joint_names: Vec<String>,
+    /// The trajectory; empty without one.
+    pub points: Vec<TrajectoryPoint>,
+}
+
+/// Something wrong with a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Stable name.
+    pub code: &'static str,
+    /// For people.
+    pub message: String,
+    /// When on the trajectory, seconds.
+    pub time_s: Option<f64>,
+    /// The numbers of the message by name, with the unit in the name.
+    pub numbers: Vec<(&'static str, f64)>,
+    /// The joint, or the two parts concerned.
+    pub parts: Vec<String>,
+}
+
+/// The verdict on a plan.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlanVerdict {
+    /// What is wrong, at most 100 entries; empty for a sound plan.
+    pub findings: Vec<Finding>,
+    /// What of the motion was looked at.
+    pub looked: Looked,
+}
+
+impl Finding {
+    fn new(code: &'static str, message: String, numbers: Vec<(&'static str, f64)>) -> Self {
+        Self { code, message, time_s: None, numbers, parts: Vec::new() }
+    }
+}
+
+/// Judges `plan` as an answer to `request`, whose numbers have been checked ([`super::check`]).
+///
+/// The views must lie on the request's shell, look at the object and, on an arm, be taken by a
+/// motion that [`check_claim`] finds nothing wrong with.
+pub fn verify(request: &PlanRequest, plan: &ClaimedPlan) -> PlanVerdict {
+    let mut findings = Vec::new();
+    count(request, plan, &mut findings);
+    for (id, view) in plan.views.iter().enumerate() {
+        let fixed_roll = request.arm.as_ref().is_none_or(|arm| !arm.free_roll);
+        view_pose(request, id, &view.base_from_camera, fixed_roll, &mut findings);
+    }
+    order(request, plan, &mut findings);
+    let mut verdict = PlanVerdict { findings, looked: Looked::default() };
+    if let Some(arm) = &request.arm {
+        motion(request, arm, plan, &mut verdict);
+    }
+    verdict.findings.truncate(MOST_FINDINGS);
+    verdict
+}
+
+fn count(request: &PlanRequest, plan: &ClaimedPlan, findings: &mut Vec<Finding>) {
+    let least = match &request.source {
+        ViewSource::Count(count) => *count,
+        ViewSource::Initial { five } => 3 + 2 * usize::from(*five),
+        ViewSource::Photos(_) => 1,
+    };
+    if plan.views.len() < least {
+        let numbers = vec![("views", plan.views.len() as f64), ("asked", least as f64)];
+        let message = format!("the plan has {} views, {least} were asked for", plan.views.len());
+        findings.push(Finding::new("view_missing", message, numbers));
+    }
+}
+
+/// Whether a view lies on the shell, in the band, looks at the centre and keeps its horizon.
+fn view_pose(
+    request: &PlanRequest,
+    id: usize,
+    base_from_camera: &Pose,
+    fixed_roll: bool,
+    findings: &mut Vec<Finding>,
+) {
+    let center = request.object().center_in_base;
+    let from_center = base_from_camera.translation.vector - center.coords;
+    let distance_m = from_center.norm();
+    let mut find = |code, text: String, number| {
+        findings.push(Finding::new(code, format!("view {id}: {text}"), vec![("view", id as f64), number]));
+    };
+    let radius_m = request.shell.radius_m;
+    if !((distance_m - radius_m).abs() <= TOLERANCE) {
+        let text = format!("its camera is {distance_m:.5} m from the object's centre, not {radius_m} m");
+        find("view_off_shell", text, ("distance_m", distance_m));
+    }
+    let axis = base_from_camera.rotation * Vector::z();
+    let angle_rad = axis.cross(&-from_center).norm().atan2(axis.dot(&-from_center));
+    if !(angle_rad <= TOLERANCE) {
+        let text = format!("its camera looks {angle_rad:.5} rad past the object's centre");
+        find("view_off_aim", text, ("angle_rad", angle_rad));
+    }
+    let elevation_rad = from_center.z.atan2(from_center.x.hypot(from_center.y));
+    let band = &request.shell.band;
+    let (low, high) = (band.min_elevation_rad, band.max_elevation_rad);
+    let is_initial = matches!(request.source, ViewSource::Initial { .. });
+    if !is_initial && !(elevation_rad >= low - TOLERANCE && elevation_rad <= high + TOLERANCE) {
+        let text =
+            format!("its elevation of {elevation_rad:.5} rad is outside the band, {low:.5} to {high:.5} rad");
+        find("view_out_of_band", text, ("elevation_rad", elevation_rad));
+    }
+    let tilt_rad = (base_from_camera.rotation * Vector::x()).z.asin().abs();
+    if fixed_roll && !(tilt_rad <= TOLERANCE) {
+        find("view_rolled", format!("its horizon is tilted by {tilt_rad:.5} rad"), ("tilt_rad", tilt_rad));
+    }
+}
+
+fn order(request: &PlanRequest, plan: &ClaimedPlan, findings: &mut Vec<Finding>) {
+    let mut visits = vec![0usize; plan.views.len()];
+    for id in &plan.order {
+        match visits.get_mut(*id) {
+            Some(count) => *count += 1,
+            None => {
+                let message = format!("the order names view {id}, which the plan does not have");
+                findings.push(Finding::new("wrong_order", message, vec![("view", *id as f64)]));
+            }
+        }
+    }
+    for (id, (count, view)) in visits.iter().zip(&plan.views).enumerate() {
+        if *count != usize::from(view.planned) {
+            let status = if view.planned { "planned" } else { "skipped" };
+            let message = format!("view {id} is {status} and {count} times in the order");
+            findings.push(Finding::new("wrong_order", message, vec![("view", id as f64)]));
+        }
+        let below_m = request.object().table_z_m.unwrap_or(f64::NEG_INFINITY)
+            - view.base_from_camera.translation.vector.z;
+        if view.planned && below_m > TOLERANCE {
+            let message = format!("view {id} is planned {below_m:.4} m below the table's surface");
+            let numbers = vec![("view", id as f64), ("below_m", below_m)];
+            findings.push(Finding::new("view_under_table", message, numbers));
+        }
+    }
+}
+
+fn motion(request: &PlanRequest, arm: &Arm, plan: &ClaimedPlan, verdict: &mut PlanVerdict) {
+    if plan.points.is_empty() {
+        if !plan.order.is_empty() {
+            let message = "views are planned for an arm but there is no trajectory".to_owned();
+            verdict.findings.push(Finding::new("no_trajectory", message, Vec::new()));
+        }
+        return;
+    }
+    let names = arm.model.joints.iter().map(|joint| &joint.name);
+    if !names.eq(plan.joint_names.iter()) {
+        let message = format!("the trajectory's joints are {:?}, not the robot's", plan.joint_names);
+        verdict.findings.push(Finding::new("wrong_joints", message, Vec::new()));
+    }
+    let cell = cell(request, arm);
+    let trajectory: Vec<motion::TrajectoryPoint> = plan
+        .points
+        .iter()
+        .map(|point| motion::TrajectoryPoint {
+            positions_rad: point.positions_rad.clone(),
+            velocities_rad_per_s: point.velocities_rad_per_s.clone(),
+            accelerations_rad_per_s2: point.accelerations_rad_per_s2.clone(),
+            time_from_start_s: point.time_s,
+            view: point.view,
+        })
+        .collect();
+    let found = check_claim(&Claim {
+        cell: &cell,
+        start: arm.start_rad.as_deref(),
+        // The plan says how each view is turned.
+        roll: Roll::Fixed,
+        timing: arm.timing,
+        views: &plan.views,
+        order: &plan.order,
+        trajectory: &trajectory,
+    });
+    verdict.looked = found.looked;
+    verdict.findings.extend(found.violations.iter().map(|violation| Finding {
+        code: violation.code(),
+        message: violation.to_string(),
+        time_s: violation.time_s(&trajectory),
+        numbers: violation.numbers(),
+        parts: violation.parts(),
+    }));
+}
