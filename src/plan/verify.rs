@@ -40,7 +40,7 @@ pub struct Finding {
 /// The verdict on a plan.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlanVerdict {
-    /// What is wrong, at most 100 entries; empty for a sound plan.
+    /// What is wrong, at most 100 entries and ten of a kind of the motion's; empty for a sound plan.
     pub findings: Vec<Finding>,
     /// What of the motion was looked at.
     pub looked: Looked,

@@ -20,8 +20,8 @@ use passage::Passage;
 pub use passage::UNDERCUT_BOUND_M;
 pub use violation::Violation;
 
-/// Most violations listed.
-const MOST_VIOLATIONS: usize = 100;
+/// Most violations listed of one code: a hundred of a kind would hide the others.
+const MOST_OF_A_KIND: usize = 10;
 
 /// A view as a motion claims to take it.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ pub struct Looked {
 /// A verdict.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verdict {
-    /// What is wrong, at most 100 entries; empty for a sound motion.
+    /// What is wrong, at most ten entries of a kind; empty for a sound motion.
     pub violations: Vec<Violation>,
     /// What was looked at.
     pub looked: Looked,
@@ -109,7 +109,12 @@ pub fn check_claim(claim: &Claim) -> Verdict {
     if well_formed {
         Passage::new(claim.cell).judge(claim.trajectory, &mut verdict);
     }
-    verdict.violations.truncate(MOST_VIOLATIONS);
+    let mut listed = std::collections::BTreeMap::new();
+    verdict.violations.retain(|violation| {
+        let count = listed.entry(violation.code()).or_insert(0usize);
+        *count += 1;
+        *count <= MOST_OF_A_KIND
+    });
     verdict
 }
 
