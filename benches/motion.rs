@@ -5,12 +5,15 @@ mod common;
 use std::hint::black_box;
 use std::time::Duration;
 
-use common::{median_time, row};
+use common::{median_processor_time, median_time, row};
 use nalgebra::{Translation3, UnitQuaternion};
-use prv::geometry::{Point, Pose};
-use prv::motion::{Cell, CellObject, MotionRequest, Order, Roll, SkipReason, ViewOutcome, plan_motion};
+use prv::geometry::{Point, Pose, Vector};
+use prv::motion::{
+    Cell, CellObject, KeepOut, MotionRequest, ObjectShape, Order, Roll, SkipReason, ViewOutcome, check,
+    plan_motion,
+};
 use prv::order::{Obstacle, order_points};
-use prv::robot::RobotModel;
+use prv::robot::{LinkShape, RobotModel};
 use prv::views::{Band, ViewSpace, tammes};
 
 fn main() {
@@ -19,19 +22,76 @@ fn main() {
             plan(count, name, roll);
         }
     }
+    shapes();
+    jerk_limited();
+}
+
+/// What the object's shape and keep-out regions cost: 58 views, fixed roll.
+fn shapes() {
+    let cylinder = ObjectShape::Cylinder { radius_m: 0.06, height_m: 0.16 };
+    let cuboid = ObjectShape::Cuboid { size_m: Vector::new(0.1, 0.1, 0.14), yaw_rad: 0.4 };
+    let post = |i: i32| KeepOut {
+        name: format!("post {i}"),
+        shape_in_base: LinkShape::capsule(
+            [-0.4, 0.3 * f64::from(i), 0.0],
+            [-0.4, 0.3 * f64::from(i), 1.0],
+            0.05,
+        ),
+    };
+    for (name, shape, posts) in [
+        ("sphere", ObjectShape::Sphere, 0),
+        ("cylinder", cylinder, 0),
+        ("box", cuboid, 0),
+        ("sphere and 4 posts", ObjectShape::Sphere, 4),
+    ] {
+        let Some((mut cell, views)) = cell_and_views(58) else { return };
+        if let Some(object) = &mut cell.object {
+            object.shape = shape;
+        }
+        cell.keep_out.extend((0..posts).map(post));
+        let request = MotionRequest::new(&cell, &views);
+        let time = median_processor_time(7, 1, || {
+            black_box(plan_motion(&request).is_ok());
+        });
+        row(&format!("plan, 58 views as listed, object {name}"), time * 1e3, "ms", None);
+    }
+}
+
+/// How much longer a motion takes when its jerk is bounded, and what the check of it costs.
+fn jerk_limited() {
+    let Some((cell, views)) = cell_and_views(35) else { return };
+    let mut request = MotionRequest::new(&cell, &views);
+    request.roll = Roll::FREE;
+    request.timing.settle_s = 0.0;
+    let Ok(without) = plan_motion(&request) else { return };
+    request.timing.jerk_limited = true;
+    let Ok(with) = plan_motion(&request) else { return };
+    row("motion of 35 views, jerk not bounded", without.duration_s, "s", None);
+    row("the same, 100 rad/s3 (assumed for a UR5e)", with.duration_s, "s", None);
+    row("longer by", 100.0 * (with.duration_s / without.duration_s - 1.0), "%", None);
+    println!("{} violations", check(&request, &with).len());
+    let time = median_processor_time(5, 1, || {
+        black_box(check(&request, &with).len());
+    });
+    row("its independent check", time * 1e3, "ms", None);
 }
 
 /// A UR5e with a D435 60 mm ahead of its flange, a 0.1 m object at (0.45, 0), views 0.3 m around it.
-fn plan(count: usize, name: &str, roll: Roll) {
+fn cell_and_views(count: usize) -> Option<(Cell, Vec<Pose>)> {
     let flange_from_camera = Pose::from_parts(Translation3::new(0.0, 0.0, 0.06), UnitQuaternion::identity());
-    let Ok(robot) = RobotModel::named("ur5e") else { return };
-    let mut cell = Cell::new(robot, flange_from_camera);
+    let mut cell = Cell::new(RobotModel::named("ur5e").ok()?, flange_from_camera);
     let center_in_base = Point::new(0.45, 0.0, 0.1);
     cell.object = Some(CellObject::sphere(center_in_base, 0.1));
     cell.table_z_m = Some(0.0);
-    let Ok(set) = tammes(count, Band::DEFAULT) else { return };
+    let set = tammes(count, Band::DEFAULT).ok()?;
     let space = ViewSpace { center_in_base, radius_m: 0.3, band: Band::DEFAULT };
-    let views: Vec<Pose> = set.directions.iter().map(|d| space.pose(d, 0.0)).collect();
+    let views = set.directions.iter().map(|d| space.pose(d, 0.0)).collect();
+    Some((cell, views))
+}
+
+fn plan(count: usize, name: &str, roll: Roll) {
+    let Some((cell, views)) = cell_and_views(count) else { return };
+    let center_in_base = Point::new(0.45, 0.0, 0.1);
     let points: Vec<Point> = views.iter().map(|p| Point::from(p.translation.vector)).collect();
     let obstacle = Obstacle { center: center_in_base, radius_m: 0.1, table_z_m: Some(0.0) };
     let order = |reachable: &[usize], first: usize| {

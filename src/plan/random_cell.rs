@@ -8,11 +8,11 @@ use rand_chacha::ChaCha8Rng;
 
 use super::verify::{ClaimedPlan, Finding, verify};
 use super::{
-    Arm, ObjectSphere, Plan, PlanError, PlanRequest, Surroundings, TrajectoryPoint, ViewShell, ViewSource,
-    ViewStatus, make_plan,
+    Arm, ObjectSphere, Plan, PlanError, PlanRequest, Surroundings, TrajectoryPoint, UnreachableViews,
+    ViewShell, ViewSource, ViewStatus, make_plan,
 };
 use crate::geometry::{Point, Pose, Vector};
-use crate::motion::{ClaimedView, KeepOut, ObjectShape, Timing};
+use crate::motion::{ClaimedView, KeepOut, ObjectShape, Roll, Timing};
 use crate::robot::{LinkShape, RobotModel};
 use crate::views::Band;
 
@@ -179,7 +179,9 @@ impl Draw {
         let radius_m = self.within(0.04, 0.14);
         let height_m = self.within(0.05, 0.35 * reach_m);
         let center_in_base = Point::new(distance_m * azimuth.cos(), distance_m * azimuth.sin(), height_m);
-        let table_z_m = (!self.chance(0.1)).then(|| height_m - radius_m * self.within(0.2, 2.5));
+        // An arm does not stand deep in its table.
+        let table_z_m = (!self.chance(0.1))
+            .then(|| (height_m - radius_m * self.within(0.2, 2.5)).min(self.within(-0.2, 0.05)));
         let shape = match self.below(3) {
             0 => ObjectShape::Sphere,
             1 => {
@@ -209,7 +211,16 @@ impl Draw {
         Arm {
             flange_from_camera: Some(Pose::new(at, tilt)),
             start_rad,
-            free_roll: self.chance(0.5),
+            roll: match self.below(4) {
+                0 => Roll::FREE,
+                1 => Roll::Free { samples: 4 },
+                _ => Roll::Fixed,
+            },
+            // Looking for other views costs more than planning them.
+            unreachable_views: match self.chance(0.1) {
+                true => UnreachableViews::Replace,
+                false => UnreachableViews::Skip,
+            },
             surroundings: self.surroundings(object),
             timing: Timing {
                 speed_scale,

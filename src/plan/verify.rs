@@ -60,7 +60,7 @@ pub fn verify(request: &PlanRequest, plan: &ClaimedPlan) -> PlanVerdict {
     let mut findings = Vec::new();
     count(request, plan, &mut findings);
     for (id, view) in plan.views.iter().enumerate() {
-        let fixed_roll = request.arm.as_ref().is_none_or(|arm| !arm.free_roll);
+        let fixed_roll = request.arm.as_ref().is_none_or(|arm| arm.roll == Roll::Fixed);
         view_pose(request, id, &view.base_from_camera, fixed_roll, &mut findings);
     }
     order(request, plan, &mut findings);

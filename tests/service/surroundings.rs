@@ -89,3 +89,24 @@ async fn half_the_speed_and_a_longer_rest_take_as_long_as_they_should() {
     assert!((duration(&slow) - 2.0 * duration(&fast)).abs() < 0.02 * duration(&slow));
     assert!((duration(&resting) - duration(&fast) - 2.0 * planned(&fast) as f64).abs() < 0.1);
 }
+
+#[tokio::test]
+async fn a_motion_of_bounded_jerk_is_longer_and_keeps_its_bounds() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let request = |jerk_limited: bool| {
+        let timing = json!({"settle": 0.0, "sample_period": 0.01, "jerk_limited": jerk_limited});
+        with(cell(), json!({"view_count": 6, "timing": timing}))
+    };
+    let plan = server.post_json("/v1/plans", &request(true)).await;
+    let verdict = server.post_json("/v1/checks", &json!({"plan_id": plan["id"]})).await;
+    assert_eq!(verdict["sound"], true, "{verdict}");
+    let jerk_share = verdict["checked"]["largest_jerk_share"].as_f64().unwrap();
+    assert!(jerk_share > 0.9 && jerk_share < 1.0 + 1e-5, "{jerk_share}");
+    assert!(plan["warnings"].as_array().unwrap().iter().any(|w| w["code"] == "assumed_jerk"));
+    let without = server.post_json("/v1/plans", &request(false)).await;
+    let seconds = |plan: &Value| {
+        plan["trajectory"]["points"].as_array().unwrap().last().unwrap()["time_from_start"].as_f64()
+    };
+    assert!(seconds(&plan) > seconds(&without));
+}
