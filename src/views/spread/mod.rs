@@ -5,6 +5,7 @@
 //! moved to the largest holes ([`exchange`]), and the best few sets moved off the lattice, each
 //! move asking anew ([`polish`]).
 
+mod asker;
 mod exchange;
 mod lattice;
 mod polish;
@@ -17,7 +18,6 @@ use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use super::view_set::separation_rad;
 use crate::geometry::{Direction, Vector};
 
 /// Least and largest number of sets ordered on the lattice.
@@ -27,7 +27,7 @@ const CLOSEST: f64 = 0.5;
 /// Repulsions between pairs after which no further set is begun.
 const WORK: u64 = 12_000_000;
 /// The best of them that are moved off it.
-const POLISHED: usize = 3;
+const POLISHED: usize = 2;
 
 /// `count` directions of the lattice's band as far apart as we can place them where `usable_at`
 /// holds; fewer where the usable directions have no room for them at half the lattice's spacing.
@@ -81,16 +81,17 @@ pub fn spread(
         }
     }
     sets.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut best: Option<(f64, Vec<Direction>)> = None;
+    let mut asker = asker::Asker::new(lattice, usable, usable_at);
+    let mut best: Option<(f64, Vec<Vector>)> = None;
     for (_, set) in sets.iter().take(POLISHED) {
-        let points = set.iter().filter_map(|spot| ground.spots.get(*spot).copied()).collect();
-        let found = directions(&polish::polish(points, lattice, usable_at));
-        let separation = separation_rad(&found);
-        if best.as_ref().is_none_or(|(known, _)| separation > *known) {
-            best = Some((separation, found));
+        let spots: Vec<Vector> = set.iter().filter_map(|spot| ground.spots.get(*spot).copied()).collect();
+        let found = polish::polish(spots, lattice, &mut asker);
+        let square = repulsion::least_squared_distance(&found);
+        if best.as_ref().is_none_or(|(known, _)| square > *known) {
+            best = Some((square, found));
         }
     }
-    let mut found = best.map(|(_, found)| found).unwrap_or_default();
+    let mut found = directions(&best.map(|(_, found)| found).unwrap_or_default());
     // A view may have moved above the highest spot.
     if let Some(free) = found.get_mut(usize::from(usable.first() == Some(&true))..) {
         free.sort_by(|a, b| b.z.total_cmp(&a.z).then(a.x.total_cmp(&b.x)).then(a.y.total_cmp(&b.y)));
@@ -139,7 +140,7 @@ fn begin(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::views::{Band, tammes};
+    use crate::views::{Band, separation_rad, tammes};
     use proptest::prelude::*;
 
     fn asked(lattice: &Lattice, holds: impl Fn(&Direction) -> bool) -> Vec<bool> {

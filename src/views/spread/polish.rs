@@ -3,11 +3,12 @@
 use std::f64::consts::TAU;
 
 use super::Lattice;
+use super::asker::Asker;
 use super::repulsion::{least_squared_distance, repulsion};
-use crate::geometry::{Direction, Vector};
+use crate::geometry::Vector;
 
 /// Binary logarithms of the exponents of the squared distance, one pass each.
-const PASSES: [u32; 3] = [5, 7, 9];
+const PASSES: [u32; 2] = [6, 9];
 /// Directions tried from a place.
 const COMPASS: usize = 8;
 /// Moves of one view tried against the predicate before it stays.
@@ -15,13 +16,23 @@ const TRIES: usize = 2;
 /// Shortest step, radians.
 const FINEST_RAD: f64 = 2e-4;
 /// Most rounds through all views with one length of step.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 5;
 
-/// Moves all points but the first to where they are locally farthest apart and `usable_at` holds.
-pub(super) fn polish(
+/// Moves all points but the first to where they are locally farthest apart and usable.
+pub(super) fn polish(points: Vec<Vector>, lattice: &Lattice, asker: &mut Asker) -> Vec<Vector> {
+    let found = polished(points.clone(), lattice, &mut |place| asker.is_likely(place));
+    // Points of the lattice have been asked before.
+    let mut moved = found.iter().zip(&points).filter(|(after, before)| after != before);
+    if moved.all(|(after, _)| asker.is_usable(after)) {
+        return found;
+    }
+    polished(points, lattice, &mut |place| asker.is_usable(place))
+}
+
+fn polished(
     mut points: Vec<Vector>,
     lattice: &Lattice,
-    usable_at: &mut dyn FnMut(&Direction) -> bool,
+    usable_at: &mut dyn FnMut(&Vector) -> bool,
 ) -> Vec<Vector> {
     let (low, high) = lattice.band.heights();
     let mut best = points.clone();
@@ -56,7 +67,7 @@ fn round(
     turn: f64,
     doublings: u32,
     heights: (f64, f64),
-    usable_at: &mut dyn FnMut(&Direction) -> bool,
+    usable_at: &mut dyn FnMut(&Vector) -> bool,
 ) -> bool {
     let reference = least_squared_distance(points).max(1e-12);
     let mut moved = false;
@@ -74,7 +85,7 @@ fn round(
             .filter(|(there, _)| *there < now * (1.0 - 1e-6))
             .collect();
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let free = places.iter().take(TRIES).find(|(_, place)| usable_at(&Direction::new_normalize(*place)));
+        let free = places.iter().take(TRIES).find(|(_, place)| usable_at(place));
         if let Some((_, place)) = free {
             points[view] = *place;
             moved = true;
