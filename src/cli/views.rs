@@ -57,6 +57,9 @@ pub struct Args {
     /// Instead, print the table of sets improved by those of such a file.
     #[arg(long, env = "PRV_IMPROVE", conflicts_with_all = ["count", "search", "table", "summary"])]
     improve: Option<PathBuf>,
+    /// Numbers of views to search; 3 to 100 when left out.
+    #[arg(long, env = "PRV_COUNTS", value_delimiter = ',', requires = "search")]
+    counts: Vec<usize>,
     /// Rounds of the search, some seconds a set each.
     #[arg(long, env = "PRV_ROUNDS", default_value_t = 1, requires = "search")]
     rounds: u16,
@@ -65,7 +68,7 @@ pub struct Args {
 /// Runs the placement.
 pub fn run(args: &Args) -> CliResult {
     if let Some(file) = &args.search {
-        return views_search::run(file, (args.min_elevation, args.max_elevation), args.rounds);
+        return views_search::run(file, (args.min_elevation, args.max_elevation), &args.counts, args.rounds);
     }
     if let Some(file) = &args.summary {
         return views_search::summary(file);

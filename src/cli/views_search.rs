@@ -9,11 +9,12 @@ use prv::views::{SearchLine, improved_table, search_round};
 
 use super::CliResult;
 
-/// Numbers of views searched.
+/// Numbers of views searched when none are named.
 const COUNTS: std::ops::RangeInclusive<usize> = 3..=100;
 
 /// Appends the lines of all rounds that `file` does not hold yet.
-pub(super) fn run(file: &Path, band_deg: (f64, f64), rounds: u16) -> CliResult {
+pub(super) fn run(file: &Path, band_deg: (f64, f64), counts: &[usize], rounds: u16) -> CliResult {
+    let counts = if counts.is_empty() { COUNTS.collect() } else { counts.to_vec() };
     let known = std::fs::read_to_string(file).unwrap_or_default();
     let of_band = known.lines().filter_map(SearchLine::parse).filter(|line| line.band_deg == band_deg);
     let done: HashSet<(u16, usize)> = of_band.map(|line| (line.round, line.count)).collect();
@@ -22,13 +23,13 @@ pub(super) fn run(file: &Path, band_deg: (f64, f64), rounds: u16) -> CliResult {
         // What a kill left of a line stays one, and is skipped.
         writeln!(out)?;
     }
-    let bar = ProgressBar::new(u64::from(rounds) * COUNTS.count() as u64);
+    let bar = ProgressBar::new(u64::from(rounds) * counts.len() as u64);
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} sets, {eta} left") {
         bar.set_style(style);
     }
     for round in 0..rounds {
-        for count in COUNTS.filter(|count| !done.contains(&(round, *count))) {
-            writeln!(out, "{}", search_round(band_deg, count, round)?.to_text())?;
+        for count in counts.iter().filter(|count| !done.contains(&(round, **count))) {
+            writeln!(out, "{}", search_round(band_deg, *count, round)?.to_text())?;
             bar.inc(1);
         }
     }

@@ -18,6 +18,8 @@ use crate::views::{Lattice, ViewSpace, covering_radius_rad, separation_rad, spre
 const LATTICE: usize = 1200;
 /// The same for arms whose inverse kinematics are searched for numerically: milliseconds a pose.
 const LATTICE_NUMERIC: usize = 150;
+/// How often the moves of views off that lattice may ask for such an arm.
+const ASKED_NUMERIC: usize = 150;
 /// How often views are spread again because no way to some was found.
 const MORE_ROUNDS: usize = 2;
 
@@ -43,18 +45,15 @@ pub(super) fn adapted_path(
     let mut adapter = Adapter { reach: &reach, space, survey: None, excluded: Vec::new() };
     let mut views = set.poses.clone();
     let mut at = directions.clone();
-    let mut spent = begin.elapsed();
     let replace = arm.unreachable_views == UnreachableViews::Replace;
     if replace && left.len() < directions.len() {
         at = adapter.views(directions, &codes);
         views = poses(&space, &at);
-        spent = begin.elapsed();
     }
     let mut best = arm_path(request, arm, &cell, &views, end_at_top)?;
     let mut best_at = at.clone();
     let mut latest = (best.statuses.clone(), at);
     for _ in 0..if replace { MORE_ROUNDS } else { 0 } {
-        let begin = Instant::now();
         let lost = without_way(&latest.0, &latest.1);
         // Where most views are cut off it is the whole that is: leaving places out cannot help.
         if lost.is_empty() || 2 * lost.len() > latest.1.len() {
@@ -62,14 +61,12 @@ pub(super) fn adapted_path(
         }
         adapter.exclude(&lost, 0.5 * separation_rad(&latest.1));
         let at = adapter.views(directions, &codes);
-        spent += begin.elapsed();
         let found = arm_path(request, arm, &cell, &poses(&space, &at), end_at_top)?;
         latest = (found.statuses.clone(), at);
         if planned(&found.statuses) > planned(&best.statuses) {
             (best, best_at) = (found, latest.1.clone());
         }
     }
-    let begin = Instant::now();
     let taken: Vec<Direction> = best_at
         .iter()
         .zip(&best.statuses)
@@ -81,9 +78,9 @@ pub(super) fn adapted_path(
     if best_at != *directions {
         best.warnings.push(replaced_warning(&report, &codes, directions.len(), arm.roll));
     }
-    best.directions = Some(best_at);
-    spent += begin.elapsed();
-    best.timings.push(("adapt", spent));
+    // Motions that were dropped for a better one count here.
+    let kept = best.timings.iter().map(|(_, time)| *time).sum();
+    best.timings.push(("adapt", begin.elapsed().saturating_sub(kept)));
     Ok((best, Some(report)))
 }
 
@@ -155,7 +152,8 @@ impl Adapter<'_> {
         let mut probe = reach.probe();
         let mut usable_at =
             |direction: &Direction| allowed(direction) && probe.reaches(&space.pose(direction, 0.0));
-        let mut views = spread(set.len(), &survey.lattice, &usable, &mut usable_at);
+        let most_asked = if reach.is_quick() { usize::MAX } else { ASKED_NUMERIC };
+        let mut views = spread(set.len(), &survey.lattice, &usable, most_asked, &mut usable_at);
         let unreachable = set.iter().zip(codes).filter(|(_, code)| code.is_some());
         let missing = set.len() - views.len().min(set.len());
         views.extend(unreachable.take(missing).map(|(direction, _)| *direction));

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::free_path::{ORDER_BUDGET, free_path, obstacle, path_length, points};
 use super::skip_reason::reason;
 use super::{Arm, CameraPath, PlanError, PlanRequest, Trajectory, TrajectoryPoint, ViewStatus, Warning};
-use crate::geometry::{Direction, Pose};
+use crate::geometry::Pose;
 use crate::motion::{Cell, MotionPlan, MotionRequest, Order, ViewOutcome, plan_motion};
 use crate::order::{OPTIMALITY_TOLERANCE, OrderedPath, order_points};
 
@@ -15,8 +15,6 @@ pub(super) struct ArmPath {
     pub(super) statuses: Vec<ViewStatus>,
     /// With the roll that was chosen.
     pub(super) poses: Vec<Pose>,
-    /// Where the views of a set stand, seen from the object.
-    pub(super) directions: Option<Vec<Direction>>,
     pub(super) path: CameraPath,
     pub(super) trajectory: Option<Trajectory>,
     pub(super) warnings: Vec<Warning>,
@@ -74,7 +72,6 @@ pub(super) fn arm_path(
     Ok(ArmPath {
         statuses,
         poses: rolled,
-        directions: None,
         path,
         trajectory: trajectory(motion, view_of),
         warnings: Vec::new(),

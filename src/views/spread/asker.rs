@@ -11,6 +11,8 @@ pub(super) struct Asker<'a> {
     lattice: &'a Lattice,
     /// For each direction of the lattice's spiral: it is usable, and so is everything around it.
     inside: Vec<bool>,
+    /// How often moves may still ask.
+    left: usize,
     usable_at: &'a mut dyn FnMut(&Direction) -> bool,
 }
 
@@ -18,6 +20,7 @@ impl<'a> Asker<'a> {
     pub(super) fn new(
         lattice: &'a Lattice,
         usable: &[bool],
+        most_asked: usize,
         usable_at: &'a mut dyn FnMut(&Direction) -> bool,
     ) -> Self {
         let near = (AROUND * lattice.spacing_rad).powi(2);
@@ -28,12 +31,21 @@ impl<'a> Asker<'a> {
         let spiral = lattice.directions.iter().skip(1).take(lattice.equal_areas);
         let inside =
             spiral.map(|d| barred.iter().all(|b| (b - d.into_inner()).norm_squared() > near)).collect();
-        Self { lattice, inside, usable_at }
+        Self { lattice, inside, left: most_asked, usable_at }
     }
 
     /// Whether `place` is usable, or likely to be since everything around it is.
     pub(super) fn is_likely(&mut self, place: &Vector) -> bool {
-        self.is_inside(place) || self.is_usable(place)
+        self.is_inside(place) || self.may_move_to(place)
+    }
+
+    /// Whether `place` is usable, as long as moves may ask.
+    pub(super) fn may_move_to(&mut self, place: &Vector) -> bool {
+        if self.left == 0 {
+            return false;
+        }
+        self.left -= 1;
+        self.is_usable(place)
     }
 
     /// Whether `place` is usable.

@@ -27,7 +27,7 @@ const CLOSEST: f64 = 0.5;
 /// Repulsions between pairs after which no further set is begun.
 const WORK: u64 = 12_000_000;
 /// The best of them that are moved off it.
-const POLISHED: usize = 2;
+const POLISHED: usize = 3;
 
 /// `count` directions of the lattice's band as far apart as we can place them where `usable_at`
 /// holds; fewer where the usable directions have no room for them at half the lattice's spacing.
@@ -35,11 +35,14 @@ const POLISHED: usize = 2;
 /// `usable` is the predicate on the lattice, direction by direction. The first direction is the
 /// band's top where it is usable, else the highest usable direction of the lattice. Every other
 /// one that is returned is a direction of the lattice or has been asked for through `usable_at`.
-/// Deterministic, as far as the predicate is.
+/// `most_asked` bounds how often the moves off the lattice ask, beside a last time for each view
+/// that moved: with little of it, views stay nearer to the lattice. Deterministic, as far as the
+/// predicate is.
 pub fn spread(
     count: usize,
     lattice: &Lattice,
     usable: &[bool],
+    most_asked: usize,
     usable_at: &mut dyn FnMut(&Direction) -> bool,
 ) -> Vec<Direction> {
     let spots: Vec<Vector> = lattice
@@ -81,7 +84,7 @@ pub fn spread(
         }
     }
     sets.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut asker = asker::Asker::new(lattice, usable, usable_at);
+    let mut asker = asker::Asker::new(lattice, usable, most_asked, usable_at);
     let mut best: Option<(f64, Vec<Vector>)> = None;
     for (_, set) in sets.iter().take(POLISHED) {
         let spots: Vec<Vector> = set.iter().filter_map(|spot| ground.spots.get(*spot).copied()).collect();
@@ -151,7 +154,7 @@ mod tests {
     fn where_everything_is_usable_the_set_is_nearly_as_good_as_the_table() {
         for count in [5, 12, 20, 35, 58, 100] {
             let lattice = Lattice::new(Band::DEFAULT, 1500);
-            let found = spread(count, &lattice, &asked(&lattice, |_| true), &mut |_| true);
+            let found = spread(count, &lattice, &asked(&lattice, |_| true), usize::MAX, &mut |_| true);
             let best_rad = tammes(count, Band::DEFAULT).unwrap().separation_rad;
             let share = separation_rad(&found) / best_rad;
             assert_eq!((found.len(), found[0].z), (count, 1.0));
@@ -164,7 +167,7 @@ mod tests {
     fn without_the_top_the_highest_usable_direction_comes_first() {
         let lattice = Lattice::new(Band::DEFAULT, 800);
         let low = |direction: &Direction| direction.z < 0.7;
-        let found = spread(15, &lattice, &asked(&lattice, low), &mut |direction| low(direction));
+        let found = spread(15, &lattice, &asked(&lattice, low), usize::MAX, &mut |direction| low(direction));
         assert_eq!(found.len(), 15);
         assert!(found.iter().all(low));
         assert!(found[1..].iter().all(|direction| direction.z <= found[0].z + 1e-9) && found[0].z > 0.65);
@@ -177,10 +180,10 @@ mod tests {
         let usable = asked(&lattice, cap);
         let count = usable.iter().filter(|usable| **usable).count();
         assert!(count > 0 && count < 50, "{count}");
-        let found = spread(50, &lattice, &usable, &mut |direction| cap(direction));
+        let found = spread(50, &lattice, &usable, usize::MAX, &mut |direction| cap(direction));
         assert!(found.len() <= count && 2 * found.len() > count, "{} of {count}", found.len());
         assert!(separation_rad(&found) > 0.45 * lattice.spacing_rad);
-        assert!(spread(50, &lattice, &asked(&lattice, |_| false), &mut |_| false).is_empty());
+        assert!(spread(50, &lattice, &asked(&lattice, |_| false), usize::MAX, &mut |_| false).is_empty());
     }
 
     proptest! {
@@ -189,16 +192,17 @@ mod tests {
         #[test]
         fn every_view_is_usable_and_the_same_question_has_the_same_answer(
             x in -1.0..1.0f64, y in -1.0..1.0f64, level in -0.3..0.6f64, count in 1usize..40,
+            most_asked in 0usize..3000,
         ) {
             let band = Band::from_degrees(0.0, 80.0).unwrap();
             let lattice = Lattice::new(band, 500);
             let holds = |d: &Direction| d.x * x + d.y * y < level;
             let usable = asked(&lattice, holds);
-            let found = spread(count, &lattice, &usable, &mut |direction| holds(direction));
+            let found = spread(count, &lattice, &usable, most_asked, &mut |direction| holds(direction));
             prop_assert!(found.iter().all(|direction| holds(direction) && band.contains(direction, 1e-9)));
             let exist = usable.iter().filter(|usable| **usable).count();
             prop_assert!(found.len() == count || 3 * found.len() > exist, "{} of {exist}", found.len());
-            let again = spread(count, &lattice, &usable, &mut |direction| holds(direction));
+            let again = spread(count, &lattice, &usable, most_asked, &mut |direction| holds(direction));
             prop_assert_eq!(found, again);
         }
     }

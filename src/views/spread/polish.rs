@@ -26,7 +26,7 @@ pub(super) fn polish(points: Vec<Vector>, lattice: &Lattice, asker: &mut Asker) 
     if moved.all(|(after, _)| asker.is_usable(after)) {
         return found;
     }
-    polished(points, lattice, &mut |place| asker.is_usable(place))
+    polished(points, lattice, &mut |place| asker.may_move_to(place))
 }
 
 fn polished(
