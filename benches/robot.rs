@@ -76,8 +76,11 @@ fn main() {
     let industrial = RobotModel::from_dh(&irb_2400(), DhConvention::Standard).expect("a sound table");
     closed_form("ABB IRB 2400 from DH (spherical wrist)", &industrial, Some(10.0));
     closed_form("xArm6 (offset wrist)", &RobotModel::named("xarm6").expect("built in"), Some(1000.0));
-    numeric("Panda", &panda);
-    numeric("FR3", &RobotModel::named("fr3").expect("built in"));
+    let fr3 = RobotModel::named("fr3").expect("built in");
+    for (name, robot) in [("Panda", &panda), ("FR3", &fr3)] {
+        unsolved(name, robot, 0.1);
+        numeric(name, robot);
+    }
     let bent = RobotModel::from_dh(&calibrated_ur5e(), DhConvention::Standard).expect("a sound table");
     numeric("UR5e, calibrated table", &bent);
 }
@@ -109,6 +112,13 @@ fn closed_form(name: &str, robot: &RobotModel, bound_us: Option<f64>) {
         }
     });
     row(&format!("{name}: inverse(), all branches"), all * 1e6 / BATCH as f64, "us", bound_us);
+    let lost = median_time(51, 1, || {
+        for target in &targets[..BATCH] {
+            let turned = Pose::translation(0.0, 0.0, -1.5) * target;
+            black_box(robot.kinematics.inverse(black_box(&turned), &[]));
+        }
+    });
+    row(&format!("{name}: inverse(), one and a half metres lower"), lost * 1e6 / BATCH as f64, "us", None);
 }
 
 /// A UR5e with small deviations in every row.
@@ -122,6 +132,21 @@ fn calibrated_ur5e() -> [DhRow; 6] {
         DhRow::new(-0.0001, -quarter + 0.0006, 0.0998, 0.001),
         DhRow::new(0.0, 0.0, 0.0995, 0.0),
     ]
+}
+
+/// Share of ten thousand reachable poses that get no solution.
+fn unsolved(name: &str, robot: &RobotModel, bound_percent: f64) {
+    let mut random = ChaCha8Rng::seed_from_u64(2);
+    let count = 10_000;
+    let without = (0..count)
+        .filter(|_| {
+            let q: Vec<f64> =
+                robot.joints.iter().map(|j| random.random_range(j.lower_rad..j.upper_rad)).collect();
+            robot.kinematics.inverse(&robot.kinematics.forward(&q), &[]).solutions.is_empty()
+        })
+        .count();
+    let percent = 100.0 * without as f64 / f64::from(count);
+    row(&format!("{name}: of 10,000 reachable poses without a solution"), percent, "%", Some(bound_percent));
 }
 
 /// Times, share solved and number of solutions of a numeric arm.

@@ -29,3 +29,47 @@ async fn a_robot_given_by_its_dh_table_goes_where_the_named_one_does() {
     let run = server.post_json("/v1/executions", &run).await["id"].as_str().unwrap().to_owned();
     assert_eq!(server.wait_for(&run, &["done", "failed"]).await["state"], "done");
 }
+
+#[tokio::test]
+async fn a_mesh_that_is_not_attached_is_named_in_the_plans_warnings() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let joint = |number: usize, xyz: &str, roll: f64| {
+        format!(
+            "<link name='l{number}'/><joint name='j{number}' type='revolute'><origin xyz='{xyz}' rpy='{roll} 0 0'/>\
+             <parent link='l{}'/><child link='l{number}'/><axis xyz='0 0 1'/>\
+             <limit lower='-6.2' upper='6.2' effort='1' velocity='2'/></joint>",
+            number - 1
+        )
+    };
+    let urdf = format!(
+        "<robot name='arm'><link name='l0'><collision><geometry><mesh filename='foot.stl'/></geometry></collision>\
+         </link>{}{}{}{}{}{}</robot>",
+        joint(1, "0 0 0.4", 0.0),
+        joint(2, "0 0 0", -quarter),
+        joint(3, "0.45 0 0", 0.0),
+        joint(4, "0 0.4 0", -quarter),
+        joint(5, "0 0 0", quarter),
+        joint(6, "0 0 0", -quarter),
+    );
+    let request = |meshes: serde_json::Value| {
+        let robot = with(json!({"urdf": urdf}), meshes);
+        with(cell(), json!({"views": "initial", "robot": robot}))
+    };
+    let warned = |plan: &serde_json::Value, code: &str| {
+        plan["warnings"].as_array().unwrap().iter().any(|w| {
+            let message = w["message"].as_str().unwrap();
+            w["code"] == code && message.contains("l0") && message.contains("foot.stl")
+        })
+    };
+    let plan = server.post_json("/v1/plans", &request(json!({}))).await;
+    assert!(warned(&plan, "mesh_left_out"), "{}", plan["warnings"]);
+    // The corners of a box of 20 x 20 x 10 cm, as an OBJ file in base64.
+    let file = "diAwLjEgMC4xIDAKdiAtMC4xIC0wLjEgMC4xCnYgMC4xIC0wLjEgMAp2IC0wLjEgMC4xIDAuMQo=";
+    let plan = server.post_json("/v1/plans", &request(json!({"meshes": {"foot.stl": file}}))).await;
+    assert!(warned(&plan, "mesh_replaced"), "{}", plan["warnings"]);
+    let broken = request(json!({"meshes": {"foot.stl": "aGVsbG8="}}));
+    let refused = crate::harness::problem(server.post("/v1/plans", &broken).await).await;
+    assert_eq!((&refused["status"], &refused["code"]), (&json!(422), &json!("urdf")), "{refused}");
+}

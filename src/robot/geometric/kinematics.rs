@@ -37,6 +37,9 @@ const SPARE_ANGLES: [u32; 2] = [24, 192];
 /// States that break limits least from which a descent within the limits is tried.
 const DESCENTS: usize = 8;
 
+/// Angles on either side of a sample that are tried where no sample fits the limits.
+const CLOSER: i32 = 12;
+
 /// A joint state with room for the longest chain.
 type State = [f64; MAX_JOINTS];
 
@@ -138,11 +141,21 @@ impl GeometricKinematics {
                 postures.add(self.cut(&found.state));
             }
         }
+        if postures.within().is_empty() && matches!(self.structure, Structure::OffsetWrist(_)) {
+            // Solutions that nearly fall together can hide between the samples of the search.
+            let known: Vec<(f64, State)> = known.iter().map(|state| (0.0, *state)).collect();
+            let nearest: Vec<(f64, State)> = nearest.iter().map(|n| (n.miss(), n.state)).collect();
+            self.descend_within(target, &known, &nearest, &mut postures);
+        }
         let exact = self.structure.solver().exact;
         match nearest {
             // The closed form is complete and its nearest state turns the flange right.
             Some(nearest) if exact && nearest.rotation_residual_rad < 1e-6 => {
                 postures.finish(|| self.out_of_reach(&nearest))
+            }
+            // The search has been over the whole turn; more starts would find no more.
+            Some(nearest) if postures.is_empty() && matches!(self.structure, Structure::OffsetWrist(_)) => {
+                self.numeric.miss_from(target, Some(&nearest.state), known.len().max(1))
             }
             _ if postures.is_empty() => self.numeric.inverse(target, seed.map(<[f64]>::to_vec).as_slice()),
             _ => postures.finish(InverseFailure::unknown),
@@ -194,12 +207,45 @@ impl GeometricKinematics {
             }
         }
         if postures.within().is_empty() {
+            self.look_closer(target, motion, spare, start, width / f64::from(fine), &beyond, &mut postures);
+        }
+        if postures.within().is_empty() {
             self.descend_within(target, &beyond, &nearest, &mut postures);
         }
         if postures.is_empty() {
             return self.numeric.miss_from(target, nearest.first().map(|(_, state)| state), tried as usize);
         }
         postures.finish(InverseFailure::unknown)
+    }
+
+    /// Solutions at held angles up to `reach_rad` beside those that break the limits least: the
+    /// range that fits all limits may be narrower than the distance of the samples.
+    #[allow(clippy::too_many_arguments)]
+    fn look_closer(
+        &self,
+        target: &Pose,
+        motion: &Pose,
+        spare: &SpareJoint,
+        start: &State,
+        reach_rad: f64,
+        beyond: &[(f64, State)],
+        postures: &mut Postures<'_>,
+    ) {
+        for (_, state) in beyond {
+            for i in -CLOSER..=CLOSER {
+                let held_rad = state[spare.held_joint()] + reach_rad * f64::from(i) / f64::from(CLOSER);
+                for state in spare.ways(motion, held_rad, start) {
+                    if self.beyond_limits(&state) > 0.0 {
+                        continue;
+                    }
+                    let found = self.refined(target, self.measure(target, &state), self.polishable());
+                    if found.miss() <= REACHED {
+                        postures.add(self.cut(&found.state));
+                        return;
+                    }
+                }
+            }
+        }
     }
 
     /// Solutions between the samples: descents within the limits from what breaks them

@@ -97,24 +97,40 @@ impl OffsetWrist {
         let step = TAU / f64::from(SAMPLES);
         let angle = |i: u32| seed_rad[5] + (f64::from(i) - 0.5 * f64::from(SAMPLES)) * step;
         // One sample over the turn's end, for minima there.
-        let trials: Vec<Trial> = (0..SAMPLES + 2).map(|i| self.trial(motion, angle(i), seed_rad)).collect();
+        let trials: Vec<Trial> =
+            (0..SAMPLES + 2).map(|i| self.trial(motion, angle(i), seed_rad, None)).collect();
         let mut found = Vec::new();
         let search = Search { arm: self, motion, seed_rad };
         (0..4).for_each(|branch| search.scan(&trials, branch, DEPTH, &mut found));
+        if found.is_empty() {
+            // The state that comes nearest, for whoever asks why there is none.
+            let each = trials.iter().flat_map(|trial| (0..4).map(move |branch| (trial, branch)));
+            let cost = |(trial, branch): &(&Trial, usize)| {
+                let held = trial.placements[*branch].held_by.is_some();
+                trial.misses[*branch].abs() + if held { 10.0 } else { 0.0 }
+            };
+            let best = each.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+            found.extend(best.map(|(trial, branch)| self.state(trial, branch, seed_rad)));
+        }
         found
     }
 
-    fn trial(&self, motion: &Pose, last_rad: f64, seed_rad: &[f64; 6]) -> Trial {
+    /// The trial of one branch, or of all.
+    fn trial(&self, motion: &Pose, last_rad: f64, seed_rad: &[f64; 6], only: Option<usize>) -> Trial {
         let motion_of_five = motion * self.last.turn(-last_rad);
         let seed = [seed_rad[0], seed_rad[1], seed_rad[2]];
-        let placements = self.positioner.place(&(motion_of_five * self.centre), seed);
+        let placements = self.positioner.place_some(&(motion_of_five * self.centre), seed, only);
         let fifth = motion_of_five.rotation * self.fifth;
         let on_arm = self.fourth.dot(&self.fifth);
-        let misses = placements.map(|placement| {
+        let mut misses = [0.0; 4];
+        for (branch, (miss, placement)) in misses.iter_mut().zip(&placements).enumerate() {
+            if only.is_some_and(|only| only != branch) {
+                continue;
+            }
             let seen = self.first_three.iter().zip(placement.angles_rad);
             let seen = seen.fold(fifth, |seen, (axis, angle)| turned(&axis.along, -angle, &seen));
-            self.fourth.dot(&seen) - on_arm
-        });
+            *miss = self.fourth.dot(&seen) - on_arm;
+        }
         Trial { last_rad, motion_of_five, placements, misses }
     }
 
@@ -158,9 +174,9 @@ impl Search<'_> {
                 // Up to where the branch ends: there its miss changes fastest.
                 let (inside, outside) = if held(from) { (to, from) } else { (from, to) };
                 let edge = self.edge(branch, inside, outside);
-                self.scan(&self.between(inside, &edge), branch, depth - 1, found);
+                self.scan(&self.between(branch, inside, &edge), branch, depth - 1, found);
             } else if depth > 0 && changes_fast(&from.placements[branch], &to.placements[branch]) {
-                self.scan(&self.between(from, to), branch, depth - 1, found);
+                self.scan(&self.between(branch, from, to), branch, depth - 1, found);
             } else if (from.misses[branch] <= 0.0) != (to.misses[branch] <= 0.0) {
                 found.push(self.arm.state(&self.zero(branch, from, to), branch, self.seed_rad));
             }
@@ -173,7 +189,7 @@ impl Search<'_> {
                 continue;
             }
             if depth > 0 {
-                self.scan(&self.between(before, after), branch, depth - 1, found);
+                self.scan(&self.between(branch, before, after), branch, depth - 1, found);
             } else {
                 found.push(self.arm.state(here, branch, self.seed_rad));
             }
@@ -185,27 +201,31 @@ impl Search<'_> {
         let (mut within, mut beyond) = (inside.last_rad, outside.last_rad);
         for _ in 0..EDGE_STEPS {
             let middle = 0.5 * (within + beyond);
-            let trial = self.arm.trial(self.motion, middle, self.seed_rad);
+            let trial = self.trial(branch, middle);
             let held = trial.placements[branch].held_by.is_some();
             if held { beyond = middle } else { within = middle }
         }
-        self.arm.trial(self.motion, within, self.seed_rad)
+        self.trial(branch, within)
+    }
+
+    fn trial(&self, branch: usize, last_rad: f64) -> Trial {
+        self.arm.trial(self.motion, last_rad, self.seed_rad, Some(branch))
     }
 
     /// Trials from one to another in smaller steps.
-    fn between(&self, from: &Trial, to: &Trial) -> Vec<Trial> {
+    fn between(&self, branch: usize, from: &Trial, to: &Trial) -> Vec<Trial> {
         let at = |i: u32| from.last_rad + (to.last_rad - from.last_rad) * f64::from(i) / f64::from(PIECES);
-        (0..=PIECES).map(|i| self.arm.trial(self.motion, at(i), self.seed_rad)).collect()
+        (0..=PIECES).map(|i| self.trial(branch, at(i))).collect()
     }
 
     /// The zero of a branch's miss between two trials of different sign (Illinois method).
     fn zero(&self, branch: usize, from: &Trial, to: &Trial) -> Trial {
         let (mut a, mut b) = (from.last_rad, to.last_rad);
         let (mut miss_a, mut miss_b) = (from.misses[branch], to.misses[branch]);
-        let mut best = self.arm.trial(self.motion, b, self.seed_rad);
+        let mut best = self.trial(branch, b);
         for _ in 0..MOST_STEPS {
             let middle = b - miss_b * (b - a) / (miss_b - miss_a);
-            best = self.arm.trial(self.motion, middle, self.seed_rad);
+            best = self.trial(branch, middle);
             let miss = best.misses[branch];
             if miss.abs() < 1e-14 {
                 break;

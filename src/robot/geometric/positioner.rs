@@ -67,13 +67,18 @@ impl Positioner {
 
     /// The four ways to carry the point to `wanted`; free angles take `seed_rad`'s.
     pub fn place(&self, wanted: &Point, seed_rad: [f64; 3]) -> [Placement; 4] {
+        self.place_some(wanted, seed_rad, None)
+    }
+
+    /// As [`Self::place`], but only way number `only` is worked out.
+    pub fn place_some(&self, wanted: &Point, seed_rad: [f64; 3], only: Option<usize>) -> [Placement; 4] {
         match self.layout {
-            Layout::Parallel => self.place_parallel(wanted, seed_rad),
-            Layout::Meeting(centre) => self.place_meeting(&centre, wanted, seed_rad),
+            Layout::Parallel => self.place_parallel(wanted, seed_rad, only),
+            Layout::Meeting(centre) => self.place_meeting(&centre, wanted, seed_rad, only),
         }
     }
 
-    fn place_parallel(&self, wanted: &Point, seed_rad: [f64; 3]) -> [Placement; 4] {
+    fn place_parallel(&self, wanted: &Point, seed_rad: [f64; 3], only: Option<usize>) -> [Placement; 4] {
         let [a1, a2, a3] = &self.axes;
         let level = a2.along.dot(&(self.carried - a1.point));
         // Turning the point back by q1 is turning by -q1.
@@ -82,13 +87,14 @@ impl Positioner {
         let flat = |v: Vector| v - a2.along * a2.along.dot(&v);
         let (upper, fore) = (flat(a3.point - a2.point), flat(self.carried - a3.point));
         let mut placements = [EMPTY; 4];
-        let mut slots = placements.iter_mut();
-        for back in shoulders.angles_rad {
+        for (slots, back) in
+            placements.chunks_exact_mut(2).zip(shoulders.angles_rad).skip(first(only)).take(count(only))
+        {
             let seen = a1.point + turned(&a1.along, back, &from_first);
             let reach = flat(seen - a2.point);
             let value = 0.5 * (reach.norm_squared() - upper.norm_squared() - fore.norm_squared());
             let elbows = angles_to_level(&upper, &a3.along, &fore, value, seed_rad[2]);
-            for q3 in elbows.angles_rad {
+            for (slot, q3) in slots.iter_mut().zip(elbows.angles_rad) {
                 let arm = upper + turned(&a3.along, q3, &fore);
                 let q2 = angle_between(&a2.along, &arm, &reach, seed_rad[1]);
                 let held_by = if shoulders.beyond != 0.0 {
@@ -96,38 +102,37 @@ impl Positioner {
                 } else {
                     beyond_elbow(elbows.beyond)
                 };
-                slots.next().into_iter().for_each(|slot| {
-                    *slot = Placement {
-                        angles_rad: [-back, q2, q3],
-                        held_by,
-                        room: shoulders.room.min(elbows.room),
-                    };
-                });
+                *slot =
+                    Placement { angles_rad: [-back, q2, q3], held_by, room: shoulders.room.min(elbows.room) };
             }
         }
         placements
     }
 
-    fn place_meeting(&self, centre: &Point, wanted: &Point, seed_rad: [f64; 3]) -> [Placement; 4] {
+    fn place_meeting(
+        &self,
+        centre: &Point,
+        wanted: &Point,
+        seed_rad: [f64; 3],
+        only: Option<usize>,
+    ) -> [Placement; 4] {
         let [a1, a2, a3] = &self.axes;
         let (upper, fore) = (a3.point - centre, self.carried - a3.point);
         let reach = wanted - centre;
         let value = 0.5 * (reach.norm_squared() - upper.norm_squared() - fore.norm_squared());
         let elbows = angles_to_level(&upper, &a3.along, &fore, value, seed_rad[2]);
         let mut placements = [EMPTY; 4];
-        let mut slots = placements.iter_mut();
-        for q3 in elbows.angles_rad {
+        for (slots, q3) in
+            placements.chunks_exact_mut(2).zip(elbows.angles_rad).skip(first(only)).take(count(only))
+        {
             let arm = upper + turned(&a3.along, q3, &fore);
             let lifts = angles_to_lean(&a1.along, &a2.along, &arm, &reach, seed_rad[1]);
-            for q2 in lifts.angles_rad {
+            for (slot, q2) in slots.iter_mut().zip(lifts.angles_rad) {
                 let lifted = turned(&a2.along, q2, &arm);
                 let q1 = angle_between(&a1.along, &lifted, &reach, seed_rad[0]);
                 let held_by = beyond_elbow(elbows.beyond)
                     .or((lifts.beyond != 0.0).then_some(ReachBound::InsideShoulderColumn));
-                slots.next().into_iter().for_each(|slot| {
-                    *slot =
-                        Placement { angles_rad: [q1, q2, q3], held_by, room: elbows.room.min(lifts.room) };
-                });
+                *slot = Placement { angles_rad: [q1, q2, q3], held_by, room: elbows.room.min(lifts.room) };
             }
         }
         placements
@@ -144,4 +149,13 @@ fn beyond_elbow(beyond: f64) -> Option<ReachBound> {
     } else {
         None
     }
+}
+
+/// Ways come in two pairs: the first pair to work out, and how many.
+fn first(only: Option<usize>) -> usize {
+    only.map_or(0, |way| way / 2)
+}
+
+fn count(only: Option<usize>) -> usize {
+    if only.is_some() { 1 } else { 2 }
 }

@@ -280,6 +280,14 @@ mod tests {
     use crate::robot::{DhConvention, DhRow, RobotModel};
     use proptest::prelude::*;
 
+    /// A built-in arm solved by descents alone.
+    fn descended(name: &str) -> RobotModel {
+        let mut robot = RobotModel::named(name).unwrap();
+        let chain = robot.dh.as_ref().unwrap().chain().unwrap();
+        robot.kinematics = Arc::new(NumericKinematics::new(chain, robot.joints.clone()).unwrap());
+        robot
+    }
+
     fn check_all(robot: &RobotModel, target: &Pose, answer: &InverseSolutions) {
         for state in &answer.solutions {
             let reached = robot.kinematics.forward(state);
@@ -295,7 +303,7 @@ mod tests {
 
         #[test]
         fn the_panda_reaches_what_it_reached_before(share in proptest::array::uniform7(0.03..0.97f64)) {
-            let robot = RobotModel::named("panda").unwrap();
+            let robot = descended("panda");
             let q: Vec<f64> = robot.joints.iter().zip(share)
                 .map(|(j, s)| j.lower_rad + s * (j.upper_rad - j.lower_rad)).collect();
             let target = robot.kinematics.forward(&q);
@@ -329,7 +337,7 @@ mod tests {
         fn no_pose_makes_it_panic(x in proptest::array::uniform7(proptest::num::f64::ANY)) {
             let rotation = nalgebra::UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(x[0], x[1], x[2], x[3]));
             let pose = Pose::from_parts(nalgebra::Translation3::new(x[4], x[5], x[6]), rotation);
-            let robot = RobotModel::named("panda").unwrap();
+            let robot = descended("panda");
             let answer = robot.kinematics.inverse_near(&pose, &x);
             prop_assert_eq!(answer.failure.is_some(), answer.solutions.is_empty());
         }
@@ -337,14 +345,14 @@ mod tests {
 
     #[test]
     fn an_arm_with_a_joint_to_spare_gives_several_solutions() {
-        let robot = RobotModel::named("panda").unwrap();
+        let robot = descended("panda");
         let target = robot.kinematics.forward(&[0.2, -0.5, 0.1, -2.0, 0.1, 1.6, 0.5]);
         assert!(robot.kinematics.inverse(&target, &[]).solutions.len() >= 8);
     }
 
     #[test]
     fn a_pose_beyond_the_panda_says_by_how_much() {
-        let robot = RobotModel::named("panda").unwrap();
+        let robot = descended("panda");
         let failure = robot.kinematics.inverse(&Pose::translation(5.0, 0.0, 0.333), &[]).failure.unwrap();
         let UnreachableReason::OutOfReach { beyond_m, .. } = failure.reason else { panic!("{failure:?}") };
         assert!(beyond_m > 3.5 && beyond_m <= failure.position_residual_m, "{failure:?}");

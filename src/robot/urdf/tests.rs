@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use crate::geometry::Pose;
-use crate::robot::{LinkShape, RobotError, RobotModel};
+use crate::robot::{LinkShape, Meshes, RobotError, RobotModel};
 
 /// The UR5e as ROS describes it: origins and axes of the URDF convention,
 /// `base_link` turned by pi about z against `base`, `tool0` behind fixed joints.
@@ -117,6 +117,34 @@ fn shapes_of_fixed_links_belong_to_the_moving_link_and_meshes_are_named() {
         "{:?}",
         robot.warnings
     );
+}
+
+#[test]
+fn a_mesh_without_file_is_named_and_one_with_a_file_becomes_a_shape() {
+    let text = ur5e_urdf();
+    let robot = RobotModel::from_urdf(&text, None, None).unwrap();
+    let warning = robot.warnings.iter().find(|w| w.code == "mesh_left_out").unwrap();
+    assert!(warning.message.contains("camera") && warning.message.contains("package://camera.stl"));
+
+    let file = |text: &str| Meshes::from([("package://camera.stl".to_owned(), text.as_bytes().to_vec())]);
+    let corners = "v 0 0 0\nv 0.1 0 0\nv 0 0.04 0\nv 0.1 0.04 0.02\n";
+    let robot = RobotModel::from_urdf_and_meshes(&text, None, None, &file(corners)).unwrap();
+    assert!(robot.warnings.iter().all(|w| w.code != "mesh_left_out"), "{:?}", robot.warnings);
+    assert!(robot.warnings.iter().any(|w| w.code == "mesh_replaced" && w.message.contains("box")));
+    let Some(LinkShape::Cuboid { half_extents_m, .. }) = robot.links[6].shapes.last() else {
+        panic!("{:?}", robot.links[6])
+    };
+    assert!(half_extents_m.product() <= 0.05 * 0.02 * 0.01 + 1e-12, "{half_extents_m}");
+
+    let refused = |text: &str, file: &Meshes| {
+        RobotModel::from_urdf_and_meshes(text, None, None, file).unwrap_err().to_string()
+    };
+    assert!(refused(&text, &file("<COLLADA/>")).contains("package://camera.stl"));
+    assert!(refused(&text, &file("v 0 0 0\nv 100 0 0\n")).contains("millimetres"));
+    let scaled = text.replace("camera.stl'", "camera.stl' scale='0.001 0.001 0.001'");
+    assert!(RobotModel::from_urdf_and_meshes(&scaled, None, None, &file("v 0 0 0\nv 100 0 0\n")).is_ok());
+    let scaled = text.replace("camera.stl'", "camera.stl' scale='0 0 1'");
+    assert!(refused(&scaled, &file(corners)).contains("scale"));
 }
 
 #[test]

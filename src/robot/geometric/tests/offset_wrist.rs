@@ -30,8 +30,8 @@ proptest! {
         let answer = robot.kinematics.inverse(&target, &[]);
         check_all(robot.kinematics.as_ref(), &robot.joints, &target, &answer);
         let near = robot.kinematics.inverse_near(&target, &q);
-        prop_assert!(!answer.solutions.is_empty() && !near.solutions.is_empty());
         if stiffness(robot.kinematics.as_ref(), &q) > SINGULAR {
+            prop_assert!(!answer.solutions.is_empty() && !near.solutions.is_empty());
             prop_assert!(nearest(&answer, &q) < 1e-4, "{q:?} {}", nearest(&answer, &q));
             prop_assert!(apart(&near.solutions[0], &q) < 1e-4, "{q:?} {}", apart(&near.solutions[0], &q));
         }
