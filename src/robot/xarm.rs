@@ -1,6 +1,6 @@
 //! The xArm 6 of UFACTORY: axes 5 and 6 pass each other at 76 mm.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::described::kinematics_of;
 use super::{DhConvention, DhRow, DhTable, Joint, Link, LinkShape, RobotError, RobotModel, Source};
@@ -23,10 +23,10 @@ const GEOMETRY: [(f64, f64, f64, f64); 6] = [
 
 /// Lower and upper position limits, radians.
 const LIMITS: [(f64, f64); 6] =
-    [(-TAU, TAU), (-2.059, 2.0944), (-3.927, 0.19198), (-TAU, TAU), (-1.69297, 3.14159), (-TAU, TAU)];
+    [(-TAU, TAU), (-2.059, 2.0944), (-3.927, 0.19198), (-TAU, TAU), (-1.69297, PI), (-TAU, TAU)];
 
 /// Every joint's speed, rad/s (180 degrees a second).
-const SPEED_RAD_PER_S: f64 = 3.14;
+const SPEED_RAD_PER_S: f64 = PI;
 
 /// The arm without a tool.
 pub(super) fn model() -> Result<RobotModel, RobotError> {
