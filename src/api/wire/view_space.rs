@@ -55,7 +55,7 @@ pub struct ViewSpaceAnswer {
     /// Smallest angle between two view directions in degrees; 180 for a single view.
     pub separation_deg: f64,
     /// The best separation known from a long search, degrees; null for bands and numbers that were
-    /// not searched (0 to 90, 5 to 90 and 10 to 80 degrees were, from 3 to 100 views).
+    /// not searched (most of 3 to 100 views on 0 to 90, 5 to 90 and 10 to 80 degrees were).
     pub best_known_deg: Option<f64>,
     /// The views; view 0 is the top view.
     pub views: Vec<ViewSpaceView>,
