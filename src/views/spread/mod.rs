@@ -119,7 +119,7 @@ fn begin(
 ) -> Vec<usize> {
     let drawn = match start {
         0 => 0,
-        _ if start % 2 == 0 => count,
+        _ if start.is_multiple_of(2) => count,
         _ => 1 + start as usize / 2,
     };
     let mut set = vec![fixed];
