@@ -26,7 +26,7 @@ fn main() {
     jerk_limited();
 }
 
-/// What the object's shape and keep-out regions cost: 58 views, fixed roll.
+/// What the object's shape and keep-out regions cost: 58 views in a good order, fixed roll.
 fn shapes() {
     let cylinder = ObjectShape::Cylinder { radius_m: 0.06, height_m: 0.16 };
     let cuboid = ObjectShape::Cuboid { size_m: Vector::new(0.1, 0.1, 0.14), yaw_rad: 0.4 };
@@ -49,11 +49,15 @@ fn shapes() {
             object.shape = shape;
         }
         cell.keep_out.extend((0..posts).map(post));
+        let points: Vec<Point> = views.iter().map(|p| Point::from(p.translation.vector)).collect();
+        let obstacle = Obstacle { center: Point::new(0.45, 0.0, 0.1), radius_m: 0.1, table_z_m: Some(0.0) };
+        let Ok(path) = order_points(&points, 0, &obstacle, Duration::from_secs(5)) else { return };
+        let views: Vec<Pose> = path.order.iter().filter_map(|i| views.get(*i).copied()).collect();
         let request = MotionRequest::new(&cell, &views);
         let time = median_processor_time(7, 1, || {
             black_box(plan_motion(&request).is_ok());
         });
-        row(&format!("plan, 58 views as listed, object {name}"), time * 1e3, "ms", None);
+        row(&format!("plan, 58 views, fixed roll, object {name}"), time * 1e3, "ms", None);
     }
 }
 

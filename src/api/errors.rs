@@ -24,6 +24,9 @@ impl From<FieldValue> for Value {
     }
 }
 
+/// Beyond this a joint angle looks like degrees, radians.
+const NO_RADIANS: f64 = 15.0;
+
 /// JSON knows no NaN: it is named as a text.
 fn json_number(number: f64) -> Value {
     serde_json::Number::from_f64(number).map_or_else(|| number.to_string().into(), Value::Number)
@@ -122,7 +125,10 @@ impl From<RobotError> for Problem {
                 "joint_limit",
                 format!("start.{joint}"),
                 json_number(value_rad),
-                format!("within the joint's limit {bound_rad} rad"),
+                format!(
+                    "within the joint's limit {bound_rad} rad{}",
+                    if value_rad.abs() > NO_RADIANS { " (degrees?)" } else { "" }
+                ),
             ),
             RobotError::Urdf(reason) => Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "urdf", text).at(
                 "robot.urdf",

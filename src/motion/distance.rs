@@ -1,8 +1,8 @@
 //! Signed distances between shapes, a sphere and a half-space.
 //!
-//! Capsules against capsules, spheres and planes are closed formulas, since
-//! the planner asks for them a million times a plan; two shapes of which one
-//! is a box or a cylinder go to parry.
+//! The planner asks for them a million times a plan: capsules against capsules,
+//! spheres and planes are closed formulas, capsules against boxes and cylinders
+//! a search along their segment; two shapes without a capsule go to parry.
 
 use parry3d_f64::math::{Pose3, Rot3, Vec3};
 use parry3d_f64::query;
@@ -56,6 +56,17 @@ pub(crate) fn box_point(half_extents: &Vector, p: &Point) -> f64 {
     if beyond > 0.0 { beyond } else { outside.max() }
 }
 
+/// Signed distance of `p` (cylinder frame) from the cylinder about z, metres.
+fn cylinder_point(half_length: f64, radius: f64, p: &Point) -> f64 {
+    let (side, end) = ((p.x * p.x + p.y * p.y).sqrt() - radius, p.z.abs() - half_length);
+    if side > 0.0 || end > 0.0 {
+        let (side, end) = (side.max(0.0), end.max(0.0));
+        (side * side + end * end).sqrt()
+    } else {
+        side.max(end)
+    }
+}
+
 /// Signed distance of a placed shape from a point, metres.
 pub(crate) fn shape_point(frame_from_link: &Pose, shape: &LinkShape, p: &Point) -> f64 {
     match shape {
@@ -67,8 +78,7 @@ pub(crate) fn shape_point(frame_from_link: &Pose, shape: &LinkShape, p: &Point) 
         }
         LinkShape::Cylinder { link_from_cylinder, half_length_m, radius_m } => {
             let p = (frame_from_link * link_from_cylinder).inverse_transform_point(p);
-            let (side, end) = (p.x.hypot(p.y) - radius_m, p.z.abs() - half_length_m);
-            if side > 0.0 || end > 0.0 { side.max(0.0).hypot(end.max(0.0)) } else { side.max(end) }
+            cylinder_point(*half_length_m, *radius_m, &p)
         }
     }
 }
@@ -104,6 +114,17 @@ pub(crate) fn shape_shape(frame_from_a: &Pose, a: &LinkShape, frame_from_b: &Pos
         let (fa, fb) = (frame_from_a, frame_from_b);
         return segment_segment(&(fa * a0), &(fa * a1), &(fb * b0), &(fb * b1)) - ra - rb;
     }
+    match (a, b) {
+        (LinkShape::Capsule { from_in_link, to_in_link, radius_m }, solid) => {
+            let ends = [frame_from_a * from_in_link, frame_from_a * to_in_link];
+            return segment_solid(&ends, frame_from_b, solid) - radius_m;
+        }
+        (solid, LinkShape::Capsule { from_in_link, to_in_link, radius_m }) => {
+            let ends = [frame_from_b * from_in_link, frame_from_b * to_in_link];
+            return segment_solid(&ends, frame_from_a, solid) - radius_m;
+        }
+        _ => {}
+    }
     let (pose_a, solid_a, round_a) = parry_shape(frame_from_a, a);
     let (pose_b, solid_b, round_b) = parry_shape(frame_from_b, b);
     let (solid_a, solid_b) = (solid_a.as_ref(), solid_b.as_ref());
@@ -115,6 +136,56 @@ pub(crate) fn shape_shape(frame_from_a: &Pose, a: &LinkShape, frame_from_b: &Pos
             .map_or(0.0, |contact| contact.dist.min(0.0)),
     };
     apart - round_a - round_b
+}
+
+/// Length of the piece of a segment that is left to the search for its nearest point, metres.
+const SEARCH_M: f64 = 1e-6;
+/// Golden section.
+const SECTION: f64 = 0.618_033_988_749_894_9;
+
+/// Signed distance of the nearest (or deepest) point of a segment to a placed solid, metres, short
+/// by at most a micrometre.
+///
+/// The signed distance to a convex solid is a convex function, along a segment too, and changes by
+/// no more than the way along it: a golden section search closes in on its least value.
+fn segment_solid(ends: &[Point; 2], frame_from_link: &Pose, solid: &LinkShape) -> f64 {
+    let [a, b] = ends.map(|end| frame_from_link.inverse_transform_point(&end));
+    let identity = Pose::identity();
+    let (pose, half_extents, cylinder) = match solid {
+        LinkShape::Cuboid { link_from_box, half_extents_m } => (link_from_box, Some(half_extents_m), None),
+        LinkShape::Cylinder { link_from_cylinder, half_length_m, radius_m } => {
+            (link_from_cylinder, None, Some((*half_length_m, *radius_m)))
+        }
+        LinkShape::Capsule { .. } => (&identity, None, None),
+    };
+    let (a, b) = (pose.inverse_transform_point(&a), pose.inverse_transform_point(&b));
+    let at = |share: f64| {
+        let p = a + (b - a) * share;
+        match (half_extents, cylinder) {
+            (Some(half_extents), _) => box_point(half_extents, &p),
+            (None, Some((half_length, radius))) => cylinder_point(half_length, radius, &p),
+            (None, None) => shape_point(&identity, solid, &p),
+        }
+    };
+    let length = (b - a).norm();
+    let (mut low, mut high) = (0.0, 1.0);
+    let (mut left, mut right) = (1.0 - SECTION, SECTION);
+    let (mut at_left, mut at_right) = (at(left), at(right));
+    let mut least = at_left.min(at_right);
+    while (high - low) * length > SEARCH_M {
+        if at_left <= at_right {
+            (high, right, at_right) = (right, left, at_left);
+            left = high - SECTION * (high - low);
+            at_left = at(left);
+            least = least.min(at_left);
+        } else {
+            (low, left, at_left) = (left, right, at_right);
+            right = low + SECTION * (high - low);
+            at_right = at(right);
+            least = least.min(at_right);
+        }
+    }
+    least - (high - low) * length
 }
 
 /// A shape for parry: its pose, its solid, and the radius still to add around the solid.

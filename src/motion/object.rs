@@ -80,3 +80,37 @@ impl CellObject {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::distance::shape_point;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_shape_reaches_as_far_as_it_says_and_no_farther(
+            x in 0.01..0.3f64, y in 0.01..0.3f64, z in 0.01..0.3f64, yaw in -3.0..3.0f64, azimuth in -3.0..3.0f64,
+        ) {
+            let center = Point::new(0.3, -0.2, 0.1);
+            for shape in [
+                ObjectShape::Cylinder { radius_m: x, height_m: z },
+                ObjectShape::Cuboid { size_m: Vector::new(x, y, z), yaw_rad: yaw },
+            ] {
+                let reach = shape.reach_m().unwrap();
+                let solid = CellObject { center_in_base: center, radius_m: reach, shape }.solid_in_base();
+                let corner = match shape {
+                    ObjectShape::Cuboid { size_m, yaw_rad } => {
+                        UnitQuaternion::from_axis_angle(&Vector::z_axis(), yaw_rad) * (0.5 * size_m)
+                    }
+                    _ => Vector::new(x * azimuth.cos(), x * azimuth.sin(), 0.5 * z),
+                };
+                prop_assert!((corner.norm() - reach).abs() < 1e-12);
+                let distance = |p: Point| shape_point(&Pose::identity(), &solid, &p);
+                prop_assert!(distance(center + corner).abs() < 1e-12);
+                prop_assert!(distance(center + corner * 1.01) > 0.0 && distance(center + corner * 0.99) < 0.0);
+                prop_assert!(distance(center) < 0.0);
+            }
+        }
+    }
+}

@@ -123,14 +123,11 @@ fn check_request(request: &MotionRequest) -> Result<(), MotionError> {
 /// The start, and by how much it undercuts its margins. Overlap is an error.
 fn start_state(scene: &Scene, state: &[f64], placement: &mut Placement) -> Result<StartState, MotionError> {
     let joints = joints_from(state);
-    let Some(contact) = scene.deepest_contact(&joints, placement) else {
-        return Ok(StartState { joints, relief_m: 0.0 });
-    };
-    let Contact { first, second, depth_m, distance_m, .. } = contact;
-    if distance_m <= 0.0 {
+    if let Some(Contact { first, second, distance_m, .. }) = scene.deepest_overlap(&joints, placement) {
         return Err(MotionError::StartCollides { first, second, depth_m: -distance_m });
     }
-    Ok(StartState { joints, relief_m: depth_m + RESOLUTION_M })
+    let depth_m = scene.deepest_contact(&joints, placement).map(|contact| contact.depth_m);
+    Ok(StartState { joints, relief_m: depth_m.map_or(0.0, |depth_m| depth_m + RESOLUTION_M) })
 }
 
 fn ordered(

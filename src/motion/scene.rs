@@ -262,6 +262,16 @@ impl<'a> Scene<'a> {
         self.contact(deepest, depth_m)
     }
 
+    /// The pair that overlaps most at `q`, if any does. A pair may be deeper inside its margin
+    /// without overlapping, since margins differ.
+    pub fn deepest_overlap(&self, q: &Joints, placement: &mut Placement) -> Option<Contact> {
+        self.place(q, placement);
+        let distances = (0..self.pairs.len()).map(|i| (i, self.clearance(i, placement, 0.0)));
+        let (pair, distance_m) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let margin_m = self.pairs.get(pair)?.margin_m;
+        (distance_m <= 0.0).then(|| self.contact(pair, margin_m - distance_m))?
+    }
+
     fn contact(&self, pair: usize, depth_m: f64) -> Option<Contact> {
         let pair = self.pairs.get(pair)?;
         let (kind, second) = match pair.other {

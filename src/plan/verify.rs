@@ -114,7 +114,8 @@ fn view_pose(
     let band = &request.shell.band;
     let (low, high) = (band.min_elevation_rad, band.max_elevation_rad);
     let is_initial = matches!(request.source, ViewSource::Initial { .. });
-    if !is_initial && !(elevation_rad >= low - TOLERANCE && elevation_rad <= high + TOLERANCE) {
+    let in_band = elevation_rad >= low - TOLERANCE && elevation_rad <= high + TOLERANCE;
+    if !is_initial && !in_band {
         let text =
             format!("its elevation of {elevation_rad:.5} rad is outside the band, {low:.5} to {high:.5} rad");
         find("view_out_of_band", text, ("elevation_rad", elevation_rad));

@@ -36,3 +36,31 @@ impl Lengths {
         levers
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::robot::RobotModel;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn no_move_carries_a_body_farther_than_its_levers_say(
+            q in proptest::array::uniform7(-3.1..3.1f64), d in proptest::array::uniform7(-1.0..1.0f64),
+            still in 0usize..=5, above in 1usize..=6, robot in 0usize..3,
+        ) {
+            let arm = RobotModel::named(["ur10e", "panda", "xarm6"][robot]).unwrap().kinematics;
+            let link = (still + above).min(arm.dof());
+            let center = Vec3::new(0.02, -0.05, 0.1);
+            let levers = Lengths::new(arm.as_ref()).levers(link, still, center, 0.0);
+            let moved: Vec<f64> = q.iter().zip(&d).map(|(a, b)| a + b).collect();
+            let seen = |q: &[f64]| {
+                let poses = arm.link_poses(q);
+                poses[still].inverse() * poses[link] * Point::new(center.x, center.y, center.z)
+            };
+            let bound: f64 = levers.iter().zip(&d).map(|(lever, d)| lever * d.abs()).sum();
+            prop_assert!((seen(&moved) - seen(&q)).norm() <= bound + 1e-12);
+        }
+    }
+}

@@ -253,3 +253,60 @@ fn a_view_behind_a_wall_that_the_arm_cannot_pass_has_no_path() {
     assert_eq!(*from, LegStart::View(1));
     assert!(*attempts > 0);
 }
+
+#[test]
+fn the_checker_does_not_miss_a_needle_between_two_points_far_apart() {
+    let cell = cell("ur5e", 0.45, 0.0);
+    let views = views(&cell, 8, 0.3);
+    let mut request = MotionRequest::new(&cell, &views);
+    request.timing.sample_period_s = 1.0;
+    let sparse = plan(&request);
+    let moved = |pair: &[TrajectoryPoint]| (pair[1].positions_rad[0] - pair[0].positions_rad[0]).abs();
+    let far = sparse.trajectory.windows(2).max_by(|a, b| moved(a).total_cmp(&moved(b))).unwrap().to_vec();
+    assert!(moved(&far) > 0.3);
+    // The points lie on the straight line between its ends; so does the cubic between them.
+    let at: Vec<f64> =
+        far[0].positions_rad.iter().zip(&far[1].positions_rad).map(|(a, b)| a + 0.431 * (b - a)).collect();
+    let camera = (cell.robot.kinematics.forward(&at) * cell.flange_from_camera).translation.vector;
+    let needle = LinkShape::capsule(camera.into(), camera.into(), 1e-4);
+    let mut pricked = cell.clone();
+    pricked.margin_m = 0.0;
+    pricked.keep_out.push(KeepOut { name: "needle".into(), shape_in_base: needle });
+    let request = MotionRequest { cell: &pricked, ..request };
+    let found = check(&request, &sparse);
+    let hit = |v: &Violation| matches!(v, Violation::TooNear { second, .. } if second == "needle");
+    assert!(found.iter().any(hit), "{found:?}");
+}
+
+#[test]
+fn a_start_that_overlaps_is_refused_even_where_another_part_is_deeper_in_its_margin() {
+    let mut cell = cell("ur5e", 0.45, 0.0);
+    cell.object = None;
+    let start = [0.0, -1.6, 1.6, -1.6, -1.57, 0.0];
+    let arm = &cell.robot.kinematics;
+    let forearm = cell.robot.links.iter().position(|link| link.name == "forearm_link").unwrap();
+    let LinkShape::Capsule { from_in_link, to_in_link, radius_m } = cell.robot.links[forearm].shapes[0]
+    else {
+        panic!()
+    };
+    // A ball on the flange that just touches the forearm's side.
+    let along = to_in_link - from_in_link;
+    let beside =
+        along.cross(&crate::geometry::Vector::new(0.3, 0.5, 0.8)).normalize() * (radius_m + 0.02 - 0.003);
+    let ball_in_base =
+        arm.link_poses(&start)[forearm] * (nalgebra::center(&from_in_link, &to_in_link) + beside);
+    let ball = arm.forward(&start).inverse() * ball_in_base;
+    let flange_z = arm.forward(&start).translation.vector.z;
+    cell.tool.push(LinkShape::capsule(ball.into(), ball.into(), 0.02));
+    (cell.margin_m, cell.table_z_m) = (0.2, Some(flange_z - 0.15));
+    let mut request = MotionRequest::new(&cell, &[]);
+    request.start = Some(&start);
+    let refused = plan_motion(&request);
+    assert!(
+        matches!(&refused, Err(MotionError::StartCollides { second, .. }) if second == "tool"),
+        "{refused:?}"
+    );
+    let mut bare = cell.clone();
+    bare.tool.clear();
+    assert!(plan_motion(&MotionRequest { cell: &bare, ..request }).is_ok());
+}
