@@ -3,25 +3,53 @@
 use super::joints::Joints;
 use crate::robot::Joint;
 
-/// Share of the joints' summed travel that is added to the slowest joint's:
-/// among moves that take the same time, the one that moves least is better.
-const TRAVEL_SHARE: f64 = 0.1;
+/// What a move is judged by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Measure {
+    /// Joint travel at full speed: the slowest joint's time.
+    Travel,
+    /// Time from rest to rest within speed and acceleration limits.
+    Time,
+}
 
-/// Joint travel in seconds at full speed: the slowest joint's, plus a tenth of the sum.
+/// Share of the joints' summed travel that is added: among moves that take the
+/// same time, the one that moves least is better.
+const TRAVEL_SHARE: f64 = 0.1;
+/// The same where time counts above all.
+const TRAVEL_SHARE_OF_TIME: f64 = 0.01;
+
+/// Cost of a joint move in seconds, and a little for every joint's travel.
 ///
-/// A metric (symmetric, triangle inequality), which the choice of states relies on.
+/// Travel is a metric (symmetric, triangle inequality), which the choice of states relies on to
+/// drop states that lead nowhere cheaper. Time is one but for moves limited by one joint's speed
+/// and another's acceleration: there a cheaper chain may be missed, never a wrong one taken.
 #[derive(Clone, Debug)]
 pub(crate) struct Metric {
+    measure: Measure,
     seconds_per_rad: Joints,
+    /// Reciprocal accelerations, s2/rad.
+    inverse_acceleration: Joints,
 }
 
 impl Metric {
-    pub fn new(joints: &[Joint]) -> Self {
-        let mut seconds_per_rad = [0.0; 8];
-        for (slot, joint) in seconds_per_rad.iter_mut().zip(joints) {
-            *slot = 1.0 / joint.max_speed_rad_per_s;
+    /// Least joint travel.
+    pub fn travel(joints: &[Joint]) -> Self {
+        Self::new(Measure::Travel, joints)
+    }
+
+    /// Least time.
+    pub fn time(joints: &[Joint]) -> Self {
+        Self::new(Measure::Time, joints)
+    }
+
+    fn new(measure: Measure, joints: &[Joint]) -> Self {
+        let mut metric = Self { measure, seconds_per_rad: [0.0; 8], inverse_acceleration: [0.0; 8] };
+        let slots = metric.seconds_per_rad.iter_mut().zip(&mut metric.inverse_acceleration);
+        for ((speed, acceleration), joint) in slots.zip(joints) {
+            *speed = 1.0 / joint.max_speed_rad_per_s;
+            *acceleration = 1.0 / joint.max_acceleration_rad_per_s2;
         }
-        Self { seconds_per_rad }
+        metric
     }
 
     /// Cost of the straight move, seconds.
@@ -32,11 +60,27 @@ impl Metric {
             slowest = if time > slowest { time } else { slowest };
             sum += time;
         }
-        slowest + TRAVEL_SHARE * sum
+        match self.measure {
+            Measure::Travel => slowest + TRAVEL_SHARE * sum,
+            Measure::Time => {
+                let mut hardest = 0.0f64;
+                for ((a, b), weight) in from.iter().zip(to).zip(&self.inverse_acceleration) {
+                    let square = (b - a).abs() * weight;
+                    hardest = if square > hardest { square } else { hardest };
+                }
+                rest_to_rest_s(slowest, hardest) + TRAVEL_SHARE_OF_TIME * sum
+            }
+        }
     }
 
     /// Cost of a joint path, seconds.
     pub fn path_cost(&self, path: &[Joints]) -> f64 {
         path.windows(2).map(|pair| if let [a, b] = pair { self.cost(a, b) } else { 0.0 }).sum()
     }
+}
+
+/// Seconds of the fastest progress from 0 to 1, at rest at both ends, with speed at most `1 / p`
+/// and acceleration at most `1 / q`.
+fn rest_to_rest_s(p: f64, q: f64) -> f64 {
+    if q >= p * p { 2.0 * q.sqrt() } else { p + q / p }
 }

@@ -145,8 +145,23 @@ pub struct MotionPlan {
     pub duration_s: f64,
     /// Sum over legs of the largest joint move, radians.
     pub joint_travel_rad: f64,
+    /// What the motion is compared with, when it was made for time.
+    pub compared: Option<Compared>,
     /// Start values moved onto their limits.
     pub clamped_start: Vec<ClampedJoint>,
+}
+
+/// Beside a motion made for time: the one made for distance, and what no motion can beat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// Visited views in the order of [`Objective::Distance`](super::Objective::Distance).
+    pub order: Vec<usize>,
+    /// Its duration, seconds.
+    pub duration_s: f64,
+    /// Proven: straight legs through all planned views, from one of the joint states considered for
+    /// each to one of the next, in whatever order, and the rests at the views take at least so long.
+    /// `None` if views were left out for want of a way, or there are too many states to say.
+    pub least_duration_s: Option<f64>,
 }
 
 impl MotionPlan {

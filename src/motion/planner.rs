@@ -4,14 +4,16 @@ use super::candidates::{Candidate, candidates, rolled};
 use super::choice::Layer;
 use super::contact::Contact;
 use super::error::MotionError;
+use super::fastest::fastest_order;
 use super::joints::{Joints, difference, joints_from};
-use super::plan::{Leg, LegStart, MotionPlan, PlannedView, SkipReason, ViewOutcome};
-use super::request::{MotionRequest, Order, Timing};
-use super::resolve::{Resolved, StartState, resolve};
+use super::metric::Metric;
+use super::plan::{Compared, Leg, LegStart, MotionPlan, PlannedView, SkipReason, ViewOutcome};
+use super::request::{MotionRequest, Objective, Order, Timing};
+use super::resolve::{Resolved, StartState, Stop, resolve};
 use super::scene::{Placement, Scene};
 use super::shape::pose_is_finite;
 use super::sweep::{RESOLUTION_M, Sweeper};
-use super::trajectory::timed;
+use super::trajectory::{Timed, timed};
 
 /// Plans a motion of the arm through all views it can reach.
 ///
@@ -53,16 +55,33 @@ pub fn plan_motion(request: &MotionRequest) -> Result<MotionPlan, MotionError> {
         }
     }
     let layers = ordered(request, start.as_ref(), reachable)?;
-    let Resolved { stops, dropped, .. } = resolve(&scene, layers, start, request.seed);
+    let joints = &robot.joints;
+    let timed_motion = |metric: Metric, layers: Vec<Layer>| {
+        let resolved = resolve(&scene, &metric, layers, start, request.seed);
+        Motion::timed(&scene, resolved, start.as_ref(), &request.timing)
+    };
+    let (Motion { stops, dropped, timed }, compared) = match (request.objective, request.order) {
+        (Objective::Distance, _) => (timed_motion(Metric::travel(joints), layers)?, None),
+        (Objective::Time, Order::AsGiven) => (timed_motion(Metric::time(joints), layers)?, None),
+        (Objective::Time, Order::By(_)) => {
+            let by_distance = timed_motion(Metric::travel(joints), layers.clone())?;
+            let fastest = fastest_order(&scene, &layers, start.as_ref(), request.seed);
+            let layers = fastest.order.iter().filter_map(|i| layers.get(*i).cloned()).collect();
+            let by_time = timed_motion(Metric::time(joints), layers)?;
+            let mut compared = by_distance.compared();
+            let better = if by_time.rank() < by_distance.rank() { by_time } else { by_distance };
+            compared.least_duration_s =
+                fastest.lower_bound_s.filter(|_| better.dropped.is_empty()).map(|s| {
+                    s / request.timing.speed_scale + request.timing.settle_s * better.stops.len() as f64
+                });
+            (better, Some(compared))
+        }
+    };
     for (view, reason) in dropped {
         if let Some(slot) = skipped.get_mut(view) {
             *slot = Some(reason);
         }
     }
-    let mut sweeper = Sweeper::default();
-    let relief_m = start.map_or(0.0, |s| s.relief_m);
-    let timed =
-        timed(&scene, &mut sweeper, start.as_ref().map(|s| &s.joints), &stops, relief_m, &request.timing)?;
 
     let cut = |q: &Joints| q[..scene.dof].to_vec();
     let mut outcomes: Vec<Option<ViewOutcome>> =
@@ -95,8 +114,49 @@ pub fn plan_motion(request: &MotionRequest) -> Result<MotionPlan, MotionError> {
         duration_s: timed.points.last().map_or(0.0, |p| p.time_from_start_s),
         trajectory: timed.points,
         joint_travel_rad,
+        compared,
         clamped_start,
     })
+}
+
+/// Legs and their time law.
+struct Motion {
+    stops: Vec<Stop>,
+    dropped: Vec<(usize, SkipReason)>,
+    timed: Timed,
+}
+
+impl Motion {
+    fn timed(
+        scene: &Scene,
+        resolved: Resolved,
+        start: Option<&StartState>,
+        timing: &Timing,
+    ) -> Result<Self, MotionError> {
+        let relief_m = start.map_or(0.0, |s| s.relief_m);
+        let mut sweeper = Sweeper::default();
+        let Resolved { stops, dropped, .. } = resolved;
+        let timed = timed(scene, &mut sweeper, start.map(|s| &s.joints), &stops, relief_m, timing)?;
+        Ok(Self { stops, dropped, timed })
+    }
+
+    fn duration_s(&self) -> f64 {
+        self.timed.points.last().map_or(0.0, |p| p.time_from_start_s)
+    }
+
+    /// Fewer views left out first, then less time.
+    fn rank(&self) -> (usize, f64) {
+        (self.dropped.len(), self.duration_s())
+    }
+
+    /// As what a motion for time is compared with.
+    fn compared(&self) -> Compared {
+        Compared {
+            order: self.stops.iter().map(|s| s.view).collect(),
+            duration_s: self.duration_s(),
+            least_duration_s: None,
+        }
+    }
 }
 
 fn check_request(request: &MotionRequest) -> Result<(), MotionError> {

@@ -60,6 +60,19 @@ impl std::fmt::Debug for Order<'_> {
     }
 }
 
+/// What makes an order and the states in it good.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Objective {
+    /// The order is [`Order`]'s; states are chosen for least joint travel along it.
+    #[default]
+    Distance,
+    /// Order, branch, whole turns and roll are chosen together for the least execution time
+    /// (generalised travelling salesman problem over the states of all views). [`Order::By`] is
+    /// where the search begins, and the plan by [`Objective::Distance`] is kept should it not be
+    /// beaten. [`Order::AsGiven`] stays: only the states are chosen for time.
+    Time,
+}
+
 /// How the motion is timed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
@@ -112,6 +125,8 @@ pub struct MotionRequest<'a> {
     pub roll: Roll,
     /// Order of the views.
     pub order: Order<'a>,
+    /// What is minimised.
+    pub objective: Objective,
     /// Timing.
     pub timing: Timing,
     /// Seed of the detour search. The same request and seed give the same plan.
@@ -127,6 +142,7 @@ impl<'a> MotionRequest<'a> {
             start: None,
             roll: Roll::Fixed,
             order: Order::AsGiven,
+            objective: Objective::Distance,
             timing: Timing::default(),
             seed: 0,
         }

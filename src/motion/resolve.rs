@@ -91,14 +91,20 @@ enum Verdict {
 }
 
 /// Legs through `layers` in their order.
-pub(crate) fn resolve(scene: &Scene, layers: Vec<Layer>, start: Option<StartState>, seed: u64) -> Resolved {
-    let usual = resolve_with(scene, layers.clone(), start, seed, Breadth::USUAL);
+pub(crate) fn resolve(
+    scene: &Scene,
+    metric: &Metric,
+    layers: Vec<Layer>,
+    start: Option<StartState>,
+    seed: u64,
+) -> Resolved {
+    let usual = resolve_with(scene, metric, layers.clone(), start, seed, Breadth::USUAL);
     // A joint that unwinds may not have to, had the motion begun some turns away.
     let unwinds = |stop: &Stop| stop.waypoints.windows(2).any(turns_half);
     if !usual.stops.iter().any(unwinds) {
         return usual;
     }
-    let thorough = resolve_with(scene, layers, start, seed, Breadth::ALL_TURNS);
+    let thorough = resolve_with(scene, metric, layers, start, seed, Breadth::ALL_TURNS);
     let rank = |r: &Resolved| (r.dropped.len(), r.cost);
     if rank(&thorough) < rank(&usual) { thorough } else { usual }
 }
@@ -110,12 +116,12 @@ fn turns_half(pair: &[Joints]) -> bool {
 
 fn resolve_with(
     scene: &Scene,
+    metric: &Metric,
     layers: Vec<Layer>,
     start: Option<StartState>,
     seed: u64,
     breadth: Breadth,
 ) -> Resolved {
-    let metric = Metric::new(&scene.cell.robot.joints);
     let mut resolver = Resolver {
         scene,
         sweeper: Sweeper::default(),
@@ -127,7 +133,7 @@ fn resolve_with(
         iterations_left: ALL_ITERATIONS,
         seed,
     };
-    let mut chooser = Chooser::new(metric, scene.limits(), start.map(|s| s.joints), breadth);
+    let mut chooser = Chooser::new(metric.clone(), scene.limits(), start.map(|s| s.joints), breadth);
     let mut resolved = Resolved::default();
     let mut trap = Trap::default();
     let mut changed_from = 0;

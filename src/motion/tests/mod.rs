@@ -1,4 +1,5 @@
 //! Scenarios of the whole room.
 
 mod cells;
+mod objective;
 mod scenarios;

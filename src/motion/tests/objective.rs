@@ -1,0 +1,49 @@
+use super::cells::{as_order, by_camera_path, cell, views};
+use crate::motion::*;
+
+fn planned_for(objective: Objective, roll: Roll, start: Option<&[f64]>) -> (MotionPlan, Vec<Violation>) {
+    let cell = cell("ur5e", 0.45, 0.1);
+    let views = views(&cell, 24, 0.3);
+    let order = by_camera_path(&cell, &views);
+    let mut request = MotionRequest::new(&cell, &views);
+    (request.objective, request.roll, request.start) = (objective, roll, start);
+    request.order = Order::By(as_order(&order));
+    let plan = plan_motion(&request).unwrap();
+    let violations = check(&request, &plan);
+    (plan, violations)
+}
+
+const START: [f64; 6] = [0.0, -1.6, 1.6, -1.6, -1.57, 0.0];
+
+#[test]
+fn a_plan_for_time_is_sound_faster_and_says_what_it_is_compared_with() {
+    for (roll, start) in [(Roll::Fixed, None), (Roll::FREE, None), (Roll::Fixed, Some(START.as_slice()))] {
+        let (by_distance, _) = planned_for(Objective::Distance, roll, start);
+        let (by_time, violations) = planned_for(Objective::Time, roll, start);
+        assert_eq!(violations, vec![]);
+        assert_eq!(by_time.planned_count(), by_distance.planned_count());
+        assert!(by_time.duration_s < by_distance.duration_s, "{roll:?}");
+        let compared = by_time.compared.unwrap();
+        assert_eq!((compared.order, compared.duration_s), (by_distance.order, by_distance.duration_s));
+        let least_s = compared.least_duration_s.unwrap();
+        assert!(least_s < by_time.duration_s && least_s > 0.5 * by_time.duration_s, "{least_s} s");
+        assert!(by_distance.compared.is_none());
+    }
+}
+
+#[test]
+fn a_plan_for_time_is_the_same_every_time() {
+    let plan = || planned_for(Objective::Time, Roll::FREE, None).0;
+    assert_eq!(plan(), plan());
+}
+
+#[test]
+fn a_given_order_stays_when_time_counts() {
+    let cell = cell("ur5e", 0.45, 0.1);
+    let views = views(&cell, 12, 0.3);
+    let mut request = MotionRequest::new(&cell, &views);
+    request.objective = Objective::Time;
+    let plan = plan_motion(&request).unwrap();
+    assert!(plan.order.is_sorted() && plan.planned_count() > 6);
+    assert_eq!(plan.compared, None);
+}
