@@ -40,7 +40,7 @@ fn random_cell(rng: &mut ChaCha8Rng) -> Option<Cell> {
     let mut cell = Cell::new(RobotModel::named("ur5e").ok()?, Pose::from_parts(mount, turn));
     cell.camera_body = default_camera_body(&cell.flange_from_camera);
     let center_in_base = Point::new(distance * azimuth.cos(), distance * azimuth.sin(), radius_m);
-    cell.object = Some(CellObject { center_in_base, radius_m });
+    cell.object = Some(CellObject::sphere(center_in_base, radius_m));
     cell.table_z_m = Some(0.0);
     Some(cell)
 }

@@ -6,7 +6,7 @@ use image::{DynamicImage, ImageFormat};
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::geometry::{Point, Pose};
 use prv::imaging::{Camera, composite};
-use prv::motion::{Roll, Timing};
+use prv::motion::{Objective, Roll, Timing};
 use prv::order::Obstacle;
 use prv::plan::{
     Arm, ObjectSphere, Plan, PlanRequest, Surroundings, UnreachableViews, ViewShell, ViewSource, ViewStatus,
@@ -109,6 +109,7 @@ fn request(args: &Args) -> Result<PlanRequest, Box<dyn std::error::Error>> {
             surroundings: Surroundings::default(),
             timing: Timing::default(),
             roll: Roll::FREE,
+            objective: Objective::Distance,
             unreachable_views: UnreachableViews::default(),
         }),
     };

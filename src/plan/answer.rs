@@ -14,6 +14,8 @@ pub struct Plan {
     pub views: Vec<PlanView>,
     /// The camera's path through the planned views.
     pub path: CameraPath,
+    /// What the arm's motion takes; `None` without one.
+    pub motion_time: Option<MotionTime>,
     /// The arm's motion; `None` without arm.
     pub trajectory: Option<Trajectory>,
     /// How well the set covers its band; `None` without arm and for initial views.
@@ -48,6 +50,27 @@ pub struct CoverageReport {
     /// Part of the band's area that can be reached, 0 to 1; `None` where every view of the Tammes
     /// set could be and the band was not looked at.
     pub reachable_fraction: Option<f64>,
+}
+
+/// What a motion takes, and what it is compared with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionTime {
+    /// The plan's own figures.
+    pub planned: MotionFigures,
+    /// Those of the plan for distance, beside a plan for time.
+    pub by_distance: Option<MotionFigures>,
+    /// Proven lower bound of the time over all orders and choices of states, seconds
+    /// ([`Compared::least_duration_s`](crate::motion::Compared::least_duration_s)).
+    pub least_duration_s: Option<f64>,
+}
+
+/// Time and way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionFigures {
+    /// From the first to the last point of the trajectory, rests included, seconds.
+    pub duration_s: f64,
+    /// The camera's path, metres.
+    pub path_length_m: f64,
 }
 
 /// The number of views.

@@ -5,7 +5,10 @@ use std::time::{Duration, Instant};
 
 use super::free_path::{ORDER_BUDGET, free_path, obstacle, path_length, points};
 use super::skip_reason::reason;
-use super::{Arm, CameraPath, PlanError, PlanRequest, Trajectory, TrajectoryPoint, ViewStatus, Warning};
+use super::{
+    Arm, CameraPath, MotionFigures, MotionTime, PlanError, PlanRequest, Trajectory, TrajectoryPoint,
+    ViewStatus, Warning,
+};
 use crate::geometry::Pose;
 use crate::motion::{Cell, MotionPlan, MotionRequest, Order, ViewOutcome, plan_motion};
 use crate::order::{OPTIMALITY_TOLERANCE, OrderedPath, order_points};
@@ -16,6 +19,8 @@ pub(super) struct ArmPath {
     /// With the roll that was chosen.
     pub(super) poses: Vec<Pose>,
     pub(super) path: CameraPath,
+    /// What the motion takes, and what it is compared with; `None` if nothing moves.
+    pub(super) motion_time: Option<MotionTime>,
     pub(super) trajectory: Option<Trajectory>,
     pub(super) warnings: Vec<Warning>,
     pub(super) timings: Vec<(&'static str, Duration)>,
@@ -49,14 +54,16 @@ pub(super) fn arm_path(
         start: arm.start_rad.as_deref(),
         roll: arm.roll,
         order: if end_at_top { Order::AsGiven } else { Order::By(&by_length) },
+        objective: arm.objective,
         timing: arm.timing,
         ..MotionRequest::new(cell, &views)
     })?;
-    let motion_time = begin.elapsed() - ordering.time();
+    let planning_time = begin.elapsed() - ordering.time();
     // From here on everything is in the numbering of `poses`.
     let view_of = |index: usize| listed.get(index).copied().unwrap_or(index);
     let order: Vec<usize> = motion.order.iter().map(|index| view_of(*index)).collect();
     let path = ordering.path(order, end_at_top)?;
+    let motion_time = motion_time(request, poses, &motion, &path, view_of)?;
     let mut statuses = vec![ViewStatus::Planned; poses.len()];
     let mut rolled = poses.to_vec();
     for (index, outcome) in motion.views.iter().enumerate() {
@@ -73,10 +80,35 @@ pub(super) fn arm_path(
         statuses,
         poses: rolled,
         path,
+        motion_time,
         trajectory: trajectory(motion, view_of),
         warnings: Vec::new(),
-        timings: vec![("order", order_time), ("motion", motion_time)],
+        timings: vec![("order", order_time), ("motion", planning_time)],
     })
+}
+
+/// How long the motion takes beside what it is compared with.
+fn motion_time(
+    request: &PlanRequest,
+    poses: &[Pose],
+    motion: &MotionPlan,
+    path: &CameraPath,
+    view_of: impl Fn(usize) -> usize,
+) -> Result<Option<MotionTime>, PlanError> {
+    if motion.order.is_empty() {
+        return Ok(None);
+    }
+    let planned = MotionFigures { duration_s: motion.duration_s, path_length_m: path.length_m };
+    let Some(compared) = &motion.compared else {
+        return Ok(Some(MotionTime { planned, by_distance: None, least_duration_s: None }));
+    };
+    let order: Vec<usize> = compared.order.iter().map(|index| view_of(*index)).collect();
+    let path_length_m = path_length(request, poses, &order)?;
+    Ok(Some(MotionTime {
+        planned,
+        by_distance: Some(MotionFigures { duration_s: compared.duration_s, path_length_m }),
+        least_duration_s: compared.least_duration_s,
+    }))
 }
 
 fn trajectory(motion: MotionPlan, view_of: impl Fn(usize) -> usize) -> Option<Trajectory> {

@@ -47,17 +47,17 @@ pub fn make_plan(request: &PlanRequest, predictor: Result<&Predictor, &str>) -> 
     clock.lap("views");
 
     let end_at_top = matches!(request.source, ViewSource::Initial { .. });
-    let (statuses, poses, path, trajectory, coverage) = match &request.arm {
+    let (statuses, poses, path, motion_time, trajectory, coverage) = match &request.arm {
         Some(arm) => {
             let (found, coverage) = adapted_path(request, arm, &views, end_at_top)?;
             clock.laps.extend(found.timings);
             warnings.extend(found.warnings);
-            (found.statuses, found.poses, found.path, found.trajectory, coverage)
+            (found.statuses, found.poses, found.path, found.motion_time, found.trajectory, coverage)
         }
         None => {
             let (statuses, path) = free_path(request, &views.poses, end_at_top)?;
             clock.lap("order");
-            (statuses, views.poses, path, None, None)
+            (statuses, views.poses, path, None, None, None)
         }
     };
     warnings.extend(skipped_warning(&statuses));
@@ -68,7 +68,17 @@ pub fn make_plan(request: &PlanRequest, predictor: Result<&Predictor, &str>) -> 
         .map(|((pose, name), status)| PlanView { name, pose, status })
         .collect();
     clock.total();
-    Ok(Plan { count, views, path, trajectory, coverage, expected, warnings, timings: clock.laps })
+    Ok(Plan {
+        count,
+        views,
+        path,
+        motion_time,
+        trajectory,
+        coverage,
+        expected,
+        warnings,
+        timings: clock.laps,
+    })
 }
 
 fn skipped_warning(statuses: &[ViewStatus]) -> Option<Warning> {

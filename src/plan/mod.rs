@@ -24,8 +24,8 @@ mod verify;
 mod view_poses;
 
 pub use answer::{
-    CameraPath, Coverage, CoverageReport, ExpectedView, Plan, PlanView, Reason, ViewCount, ViewStatus,
-    Warning,
+    CameraPath, Coverage, CoverageReport, ExpectedView, MotionFigures, MotionTime, Plan, PlanView, Reason,
+    ViewCount, ViewStatus, Warning,
 };
 pub use check::{check, length};
 pub use error::{FieldValue, PlanError};

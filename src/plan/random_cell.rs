@@ -12,7 +12,7 @@ use super::{
     ViewShell, ViewSource, ViewStatus, make_plan,
 };
 use crate::geometry::{Point, Pose, Vector};
-use crate::motion::{ClaimedView, KeepOut, ObjectShape, Roll, Timing};
+use crate::motion::{ClaimedView, KeepOut, ObjectShape, Objective, Roll, Timing};
 use crate::robot::{LinkShape, RobotModel};
 use crate::views::Band;
 
@@ -222,6 +222,7 @@ impl Draw {
                 false => UnreachableViews::Skip,
             },
             surroundings: self.surroundings(object),
+            objective: if self.chance(0.05) { Objective::Time } else { Objective::Distance },
             timing: Timing {
                 speed_scale,
                 settle_s,

@@ -5,7 +5,7 @@ use image::RgbaImage;
 use super::Surroundings;
 use crate::geometry::{Point, Pose};
 use crate::imaging::Camera;
-use crate::motion::{ObjectShape, Roll, Timing};
+use crate::motion::{ObjectShape, Objective, Roll, Timing};
 use crate::robot::RobotModel;
 use crate::views::{Band, ViewSpace};
 
@@ -67,6 +67,8 @@ pub struct Arm {
     pub start_rad: Option<Vec<f64>>,
     /// Whether views may turn about their optical axes.
     pub roll: Roll,
+    /// What its motion is made for.
+    pub objective: Objective,
     /// What becomes of views of a set that it cannot reach.
     pub unreachable_views: UnreachableViews,
     /// What stands around it and hangs on its flange.

@@ -10,6 +10,7 @@ mod events;
 mod execution_refusals;
 mod garbage;
 mod harness;
+mod objective;
 mod offline_plan;
 mod online_workflow;
 mod openapi_drift;

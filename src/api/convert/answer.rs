@@ -5,11 +5,12 @@ use std::time::Duration;
 
 use super::pose_json;
 use crate::api::wire::{
-    CoverageJson, CoverageReportJson, ExpectedPose, PlanAnswer, PlannedView, SkipReason, TrajectoryJson,
-    TrajectoryPointJson, ViewCountJson, ViewStatusJson, WarningJson,
+    CoverageJson, CoverageReportJson, ExpectedPose, MotionFiguresJson, MotionTimeJson, PlanAnswer,
+    PlannedView, SkipReason, TrajectoryJson, TrajectoryPointJson, ViewCountJson, ViewStatusJson, WarningJson,
 };
 use crate::plan::{
-    Coverage, CoverageReport, ExpectedView, Plan, PlanView, Trajectory, TrajectoryPoint, ViewStatus, Warning,
+    Coverage, CoverageReport, ExpectedView, MotionTime, Plan, PlanView, Trajectory, TrajectoryPoint,
+    ViewStatus, Warning,
 };
 
 /// The plan's JSON.
@@ -26,6 +27,7 @@ pub fn plan_answer(id: String, plan: Plan) -> PlanAnswer {
         path_length_m: plan.path.length_m,
         path_optimal: plan.path.optimal,
         path_lower_bound_m: plan.path.lower_bound_m,
+        motion_time: plan.motion_time.as_ref().map(motion_time_json),
         trajectory: plan.trajectory.map(trajectory_json),
         coverage: plan.coverage.as_ref().map(coverage_json),
         expected_image_poses: plan.expected.as_deref().map(expected_views),
@@ -44,6 +46,17 @@ fn coverage_json(report: &CoverageReport) -> CoverageReportJson {
         before: figures(&report.before),
         after: figures(&report.after),
         reachable_fraction: report.reachable_fraction,
+    }
+}
+
+fn motion_time_json(motion_time: &MotionTime) -> MotionTimeJson {
+    MotionTimeJson {
+        duration_s: motion_time.planned.duration_s,
+        by_distance: motion_time.by_distance.map(|figures| MotionFiguresJson {
+            duration_s: figures.duration_s,
+            path_length_m: figures.path_length_m,
+        }),
+        least_duration_s: motion_time.least_duration_s,
     }
 }
 

@@ -5,9 +5,10 @@ use serde_json::Value;
 use super::{camera, images, limited_robot, object, pose, surroundings, timing};
 use crate::api::problem::Problem;
 use crate::api::wire::{
-    InitialViewsJson, PlanRequestJson, PredictionRequest, RollJson, UnreachableViewsJson, ViewSpaceJson,
+    InitialViewsJson, ObjectiveJson, PlanRequestJson, PredictionRequest, RollJson, UnreachableViewsJson,
+    ViewSpaceJson,
 };
-use crate::motion::Roll;
+use crate::motion::{Objective, Roll};
 use crate::plan::{Arm, PlanRequest, UnreachableViews, ViewShell, ViewSource};
 use crate::views::Band;
 
@@ -92,6 +93,7 @@ fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
             ("margin", json.margin.is_some()),
             ("timing", json.timing.is_some()),
             ("limits", json.limits.is_some()),
+            ("objective", json.objective == ObjectiveJson::Time),
         ] {
             if given {
                 return Err(Problem::field("robot_missing", field, "given", "left out without robot"));
@@ -107,6 +109,10 @@ fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
         surroundings: surroundings(json)?,
         timing: timing(json.timing.as_ref()),
         roll,
+        objective: match json.objective {
+            ObjectiveJson::Distance => Objective::Distance,
+            ObjectiveJson::Time => Objective::Time,
+        },
         unreachable_views: match json.unreachable_views {
             UnreachableViewsJson::Replace => UnreachableViews::Replace,
             UnreachableViewsJson::Skip => UnreachableViews::Skip,

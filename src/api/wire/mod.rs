@@ -28,10 +28,10 @@ pub use execution::{
 pub use limits::{JointLimitsJson, LimitsJson};
 pub use object::{ObjectJson, ObjectShapeJson};
 pub use plan_answer::{
-    CoverageJson, CoverageReportJson, PlanAnswer, PlanList, PlannedView, SkipReason, TrajectoryJson,
-    TrajectoryPointJson, ViewCountJson, ViewStatusJson, WarningJson,
+    CoverageJson, CoverageReportJson, MotionFiguresJson, MotionTimeJson, PlanAnswer, PlanList, PlannedView,
+    SkipReason, TrajectoryJson, TrajectoryPointJson, ViewCountJson, ViewStatusJson, WarningJson,
 };
-pub use plan_request::{InitialViewsJson, PlanRequestJson, RollJson, UnreachableViewsJson};
+pub use plan_request::{InitialViewsJson, ObjectiveJson, PlanRequestJson, RollJson, UnreachableViewsJson};
 pub use pose::PoseJson;
 pub use prediction::{ExpectedPose, PredictionAnswer, PredictionRequest};
 pub use reachability::{BandPart, PlaceJson, ReachabilityAnswer};

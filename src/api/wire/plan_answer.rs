@@ -27,6 +27,9 @@ pub struct PlanAnswer {
     pub path_optimal: bool,
     /// Proven lower bound of the path's length over all orders, metres.
     pub path_lower_bound_m: f64,
+    /// What the motion takes, and what it is compared with; absent without robot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion_time: Option<MotionTimeJson>,
     /// The arm's motion through the views; absent without robot.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trajectory: Option<TrajectoryJson>,
@@ -67,6 +70,31 @@ pub struct CoverageJson {
     /// Largest angle from any direction of the band, reachable or not, to its nearest view, degrees;
     /// 180 without views.
     pub largest_hole_deg: f64,
+}
+
+/// What a motion takes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[schema(as = MotionTime)]
+pub struct MotionTimeJson {
+    /// From the first to the last point of the trajectory in seconds, rests at the views included.
+    pub duration_s: f64,
+    /// With objective `time`: the figures of the plan for `distance` through the same views.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by_distance: Option<MotionFiguresJson>,
+    /// With objective `time`: no order of the views and no choice among the joint states considered
+    /// takes less (proven); absent when there are too many states to say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least_duration_s: Option<f64>,
+}
+
+/// Time and way of a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
+#[schema(as = MotionFigures)]
+pub struct MotionFiguresJson {
+    /// Seconds, rests included.
+    pub duration_s: f64,
+    /// Length of the camera's path, metres.
+    pub path_length_m: f64,
 }
 
 /// The number of views.

@@ -69,6 +69,9 @@ pub struct PlanRequestJson {
     /// `free` reaches more views with less motion.
     #[serde(default)]
     pub roll: RollJson,
+    /// What the order of the views and the arm's motion are made for; `distance` when left out.
+    #[serde(default, skip_serializing_if = "ObjectiveJson::is_distance")]
+    pub objective: ObjectiveJson,
     /// Regions that nothing of the arm may enter, at most 64. Views that cannot be taken because of
     /// one are skipped with `obstacle_collision`, which names it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -142,5 +145,25 @@ pub enum UnreachableViewsJson {
 impl UnreachableViewsJson {
     fn is_replace(&self) -> bool {
         *self == Self::Replace
+    }
+}
+
+/// What a plan is made for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+#[schema(as = Objective)]
+pub enum ObjectiveJson {
+    /// The order with the shortest path of the camera, proven; joint states with the least travel
+    /// along it.
+    #[default]
+    Distance,
+    /// Order and joint states that the arm runs through in the least time. The answer holds the
+    /// figures of both.
+    Time,
+}
+
+impl ObjectiveJson {
+    fn is_distance(&self) -> bool {
+        *self == Self::Distance
     }
 }

@@ -56,7 +56,8 @@ pub(super) fn judge(claim: &Claim, well_formed: bool, verdict: &mut Verdict) {
             pairs.into_iter().any(|(a, b)| (a - b).abs() > STILL)
         };
         let later = claim.trajectory.iter().skip(i + 1);
-        let until = later.take_while(|p| p.time_from_start_s <= end_s + 1e-9);
+        // Twice the tolerance: the point at the very end of the rest belongs to it, however it is rounded.
+        let until = later.take_while(|p| p.time_from_start_s <= end_s + 2e-9);
         let (mut stands, mut last_s) = (true, point.time_from_start_s);
         for other in until {
             stands &= !moves(other);
