@@ -4,6 +4,7 @@
 //! knows what the images are for.
 
 mod bounding_sphere;
+mod closed;
 mod cut_out;
 mod light;
 pub mod load;

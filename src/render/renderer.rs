@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use image::RgbaImage;
 
+use super::closed::{Visible, visible_sides};
 use super::cut_out::CutOut;
 use super::light::PreparedLight;
 use super::project::{InCamera, OnScreen, View};
@@ -43,6 +44,8 @@ struct Triangle {
     surface: u32,
     /// The corners' normals point to the side from which the corners run clockwise.
     turned: bool,
+    /// The side that can be seen from outside.
+    visible: Visible,
 }
 
 struct Surface {
@@ -95,8 +98,17 @@ impl Renderer {
                 continue;
             }
             let side: f32 = corners.iter().map(|i| dot(geometric, at(&mesh.normals, *i))).sum();
-            triangles.push(Triangle { corners: *corners, surface: *material, turned: side < 0.0 });
+            triangles.push(Triangle {
+                corners: *corners,
+                surface: *material,
+                turned: side < 0.0,
+                visible: Visible::Both,
+            });
         }
+        let corners: Vec<[u32; 3]> = triangles.iter().map(|t| t.corners).collect();
+        let hides = |i: usize| surfaces[triangles[i].surface as usize].cutoff == 0.0;
+        let visible = visible_sides(&mesh.positions, &corners, hides);
+        triangles.iter_mut().zip(visible).for_each(|(triangle, visible)| triangle.visible = visible);
         let Mesh { positions, normals, uvs, .. } = mesh;
         let attributes = normals.into_iter().zip(uvs).map(|(normal, uv)| Attributes { normal, uv }).collect();
         Self { positions, attributes, triangles, surfaces, textures, scratch: Mutex::default() }
@@ -143,6 +155,8 @@ impl Renderer {
         on_screen.clear();
         on_screen.extend(in_camera.iter().map(|p| view.to_screen(*p)));
         let Some((origin, size)) = extent(camera, on_screen) else { return image };
+        // A solid that reaches behind the near plane is cut open: its inside may be seen.
+        let uncut = on_screen.iter().all(|[_, _, w]| *w > 0.0);
 
         let samples = size[0] as usize * size[1] as usize * N;
         depth.clear();
@@ -157,6 +171,12 @@ impl Renderer {
             let [i, j, k] = corners;
             let (screen, p) =
                 ([on_screen[i], on_screen[j], on_screen[k]], [in_camera[i], in_camera[j], in_camera[k]]);
+            if uncut
+                && triangle.visible != Visible::Both
+                && turned_away(&p) == (triangle.visible == Visible::Front)
+            {
+                continue;
+            }
             let surface = &self.surfaces[triangle.surface as usize];
             match surface.texture {
                 Some(texture) if surface.cutoff > 0.0 => {
@@ -255,6 +275,13 @@ impl Renderer {
         let scale = if a > 1e-3 { 1.0 / a } else { 0.0 };
         [color[0] * r * scale, color[1] * g * scale, color[2] * b * scale]
     }
+}
+
+/// Whether the camera is on the side from which the corners run clockwise.
+#[inline]
+fn turned_away(corners: &[InCamera; 3]) -> bool {
+    let [a, b, c] = *corners;
+    dot(cross(minus(b, a), minus(c, a)), a) >= 0.0
 }
 
 /// First column and row, width and height of the pixels that the mesh can touch; `None` if none.
