@@ -24,8 +24,18 @@ test: system-packages
 build: system-packages
 	cargo build --release
 
-bench: system-packages
-	cargo bench
+## Every bench. The order bench compares with HiGHS, which the first run builds in a few minutes.
+bench: .venv/bin/cmake
+	PATH="$(CURDIR)/.venv/bin:$$PATH" \
+	  LIBCLANG_PATH="$$(.venv/bin/python -c 'import clang; print(clang.__path__[0] + "/native")')" \
+	  cargo bench --features peers
+
+# HiGHS needs CMake, a C++ compiler and, for its Rust bindings, libclang.
+.venv/bin/cmake: benches/peers/requirements.txt | system-packages
+	@command -v c++ >/dev/null || { $(SUDO) apt-get update -q && $(SUDO) apt-get install -y -q build-essential; }
+	$(PYTHON) -m venv .venv
+	.venv/bin/pip install -q --disable-pip-version-check -r $<
+	@touch $@
 
 # Installs only what is missing: a linker for Rust, pip for ONNX Runtime's wheel, curl and
 # jq for the README's session, pytest for the training package's light tests.

@@ -1,11 +1,15 @@
-//! Time of the exact order on Tammes sets and on random points, beside greedy and 2-opt.
+//! Time of the exact order on Tammes sets and on random points, beside HiGHS, greedy and 2-opt.
+//!
+//! HiGHS takes minutes to build: `make bench` does, or `cargo bench --features peers` where cmake and libclang are.
 
 mod common;
+#[cfg(feature = "peers")]
+mod peers;
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use common::{median_time, row};
+use common::{median_processor_time, median_time, processor_time, row};
 use prv::geometry::Point;
 use prv::order::{CostMatrix, LocalPath, Obstacle, nearest_neighbour, shortest_path, two_opt};
 use prv::views::{Band, ViewSpace, tammes};
@@ -27,7 +31,12 @@ fn main() {
         });
         row("local path", seconds * 1e6, "us", None);
     }
-    for (n, bound_ms) in [(20, None), (35, None), (58, Some(5.0)), (80, None), (100, Some(50.0))] {
+    if cfg!(not(feature = "peers")) {
+        println!(
+            "HiGHS is not built in: `make bench` compares with it (minutes of building; cmake and libclang)"
+        );
+    }
+    for (n, bound_ms) in [(30, None), (58, Some(5.0)), (100, Some(50.0))] {
         if let Some(matrix) = tammes_matrix(n, &space, &obstacle) {
             compare(&format!("{n} Tammes views"), &matrix, bound_ms);
         }
@@ -42,6 +51,10 @@ fn main() {
             let (ms, proven) = solve(&matrix);
             unproven += usize::from(!proven);
             milliseconds.push(ms);
+            #[cfg(feature = "peers")]
+            if seed < 3 {
+                compare_with_highs(&format!("{n} random views, set {seed}"), &matrix, ms * 1e-3, 1e-4);
+            }
         }
         milliseconds.sort_by(f64::total_cmp);
         row(&format!("{n} random views: median"), milliseconds[milliseconds.len() / 2], "ms", Some(bound_ms));
@@ -67,23 +80,55 @@ fn tammes_matrix(n: usize, space: &ViewSpace, obstacle: &Obstacle) -> Option<Cos
     CostMatrix::from_points(&points, obstacle).ok()
 }
 
-/// Milliseconds, and whether the path is proven optimal.
+/// Milliseconds of this thread, and whether the path is proven optimal.
 fn solve(matrix: &CostMatrix) -> (f64, bool) {
-    let begin = Instant::now();
-    let proven = shortest_path(matrix, 0, BUDGET).is_ok_and(|path| path.optimal);
-    (begin.elapsed().as_secs_f64() * 1e3, proven)
+    let (path, seconds) = processor_time(|| shortest_path(matrix, 0, BUDGET));
+    (seconds * 1e3, path.is_ok_and(|path| path.optimal))
 }
 
+/// Our path and the peers': one row each, in milliseconds of one thread.
 fn compare(name: &str, matrix: &CostMatrix, bound_ms: Option<f64>) {
     let Ok(path) = shortest_path(matrix, 0, BUDGET) else { return };
-    let seconds = median_time(11, 1, || drop(black_box(shortest_path(matrix, 0, BUDGET))));
+    let seconds = median_processor_time(11, 1, || drop(black_box(shortest_path(matrix, 0, BUDGET))));
     row(&format!("{name}: exact"), seconds * 1e3, "ms", bound_ms);
     let gap = (path.length - path.lower_bound) / path.length;
     row(&format!("{name}: gap, parts in 10^9"), gap * 1e9, "", Some(1.0));
-    let mut order = nearest_neighbour(matrix, 0);
-    row(&format!("{name}: greedy is longer by"), excess(matrix, &order, path.length), "%", None);
-    two_opt(matrix, &mut order);
-    row(&format!("{name}: greedy and 2-opt is longer by"), excess(matrix, &order, path.length), "%", None);
+    #[cfg(feature = "peers")]
+    for gap in [1e-4, 0.0] {
+        compare_with_highs(name, matrix, seconds, gap);
+    }
+    let greedy = nearest_neighbour(matrix, 0);
+    let greedy_seconds =
+        median_processor_time(21, 100, || drop(black_box(nearest_neighbour(black_box(matrix), 0))));
+    peer_row(&format!("{name}: greedy"), greedy_seconds, excess(matrix, &greedy, path.length), "");
+    let improved = || {
+        let mut order = nearest_neighbour(black_box(matrix), 0);
+        two_opt(matrix, &mut order);
+        order
+    };
+    let improved_seconds = median_processor_time(21, 10, || drop(black_box(improved())));
+    let name = format!("{name}: greedy and 2-opt");
+    peer_row(&name, improved_seconds, excess(matrix, &improved(), path.length), "");
+}
+
+/// One run of HiGHS, beside the `seconds` that our path took.
+#[cfg(feature = "peers")]
+fn compare_with_highs(name: &str, matrix: &CostMatrix, seconds: f64, gap: f64) {
+    let Ok(path) = shortest_path(matrix, 0, BUDGET) else { return };
+    let (found, peer_seconds) = processor_time(|| peers::highs_path(matrix, 0, gap));
+    let name = format!("{name}: HiGHS, gap {gap}");
+    let Some(found) = found else {
+        println!("{name}: no path found");
+        return;
+    };
+    let note = format!("{:.0} times ours, {} programmes", peer_seconds / seconds, found.programmes);
+    peer_row(&name, peer_seconds, excess(matrix, &found.order, path.length), &note);
+}
+
+/// A peer's time, and by how many percent its path is longer than ours.
+fn peer_row(name: &str, seconds: f64, excess_percent: f64, note: &str) {
+    let comma = if note.is_empty() { "" } else { "; " };
+    println!("{name:<58} {:>12.3} ms     {excess_percent:>9.4} % longer{comma}{note}", seconds * 1e3);
 }
 
 fn excess(matrix: &CostMatrix, order: &[usize], best: f64) -> f64 {

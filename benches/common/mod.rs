@@ -32,6 +32,13 @@ pub fn median_processor_time(runs: usize, repeats: usize, mut call: impl FnMut()
     seconds[seconds.len() / 2]
 }
 
+/// What one call returns, and the processor seconds of this thread that it took.
+pub fn processor_time<T>(call: impl FnOnce() -> T) -> (T, f64) {
+    let start = processor_seconds();
+    let value = call();
+    (value, processor_seconds() - start)
+}
+
 #[cfg(target_os = "linux")]
 fn processor_seconds() -> f64 {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
