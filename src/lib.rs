@@ -7,6 +7,7 @@
 
 pub mod geometry;
 
+pub mod draw;
 pub mod imaging;
 pub mod order;
 pub mod views;

@@ -6,6 +6,7 @@
 mod checker;
 mod config;
 mod convert;
+mod drawing;
 mod errors;
 mod executions;
 mod extract;
@@ -22,6 +23,7 @@ mod wire;
 
 pub use checker::check_plan;
 pub use config::ServiceConfig;
+pub use drawing::{plan_panel, reach_map};
 pub use extract::{MAX_BODY_BYTES, parse_json};
 pub use openapi::openapi_json;
 pub use planner::{Planner, reachability_of};

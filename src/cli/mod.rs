@@ -4,6 +4,7 @@ mod camera_flag;
 mod capture;
 mod check;
 mod check_random;
+mod draw;
 mod health;
 mod inputs;
 mod label;
@@ -39,6 +40,8 @@ enum Command {
     Capture(capture::Args),
     /// Check a plan, or plans of random cells.
     Check(check::Args),
+    /// Draw a plan as a picture.
+    Draw(draw::Args),
     /// Ask a running service whether it is ready.
     Health(health::Args),
     /// Render the initial photos of labelled objects, cut for training.
@@ -81,6 +84,7 @@ pub fn run() -> ExitCode {
     let result: CliResult = match cli.command {
         Command::Capture(args) => capture::run(&args),
         Command::Check(args) => return check::run(&args),
+        Command::Draw(args) => draw::run(&args),
         Command::Health(args) => health::run(&args),
         Command::Inputs(args) => inputs::run(&args),
         Command::Label(args) => label::run(&args),
