@@ -58,7 +58,8 @@ pub struct Args {
     /// Highest elevation of a view, degrees.
     #[arg(long, env = "PRV_MAX_ELEVATION", default_value_t = 90.0, allow_hyphen_values = true)]
     max_elevation: f64,
-    /// A robot that carries the camera, by name; unreachable views are left out and told.
+    /// A robot that carries the camera, by name; of N views those out of its reach are
+    /// replaced by others within it, with a warning.
     #[arg(long, env = "PRV_ROBOT")]
     robot: Option<String>,
     /// Opaque white behind the object instead of transparency.

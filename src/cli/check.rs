@@ -30,7 +30,7 @@ pub struct Args {
     #[arg(long, env = "PRV_MOST_VIEWS", default_value_t = 40, value_parser = clap::value_parser!(u64).range(4..=200))]
     most_views: u64,
     /// File to which counts of every 100 seeds are appended; seeds that are in it are not run again.
-    #[arg(long, env = "PRV_LOG", requires = "random")]
+    #[arg(long, env = "PRV_CHECK_LOG", requires = "random")]
     log: Option<PathBuf>,
     /// Print JSON: the answer of POST /v1/checks, or the counts of random cells.
     #[arg(long, env = "PRV_JSON")]

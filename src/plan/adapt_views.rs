@@ -154,9 +154,15 @@ impl Adapter<'_> {
             |direction: &Direction| allowed(direction) && probe.reaches(&space.pose(direction, 0.0));
         let most_asked = if reach.is_quick() { usize::MAX } else { ASKED_NUMERIC };
         let mut views = spread(set.len(), &survey.lattice, &usable, most_asked, &mut usable_at);
-        let unreachable = set.iter().zip(codes).filter(|(_, code)| code.is_some());
+        let (left, unreachable): (Vec<_>, Vec<_>) =
+            set.iter().zip(codes).partition(|(_, code)| code.is_none());
+        // A coarse lattice may hold fewer than the set itself has.
+        if views.len() < set.len() && views.len() <= left.iter().filter(|(d, _)| allowed(d)).count() {
+            return set.to_vec();
+        }
         let missing = set.len() - views.len().min(set.len());
-        views.extend(unreachable.take(missing).map(|(direction, _)| *direction));
+        let rest = unreachable.iter().chain(&left);
+        views.extend(rest.take(missing).map(|(direction, _)| **direction));
         views
     }
 }

@@ -68,6 +68,10 @@ pub fn verify(request: &PlanRequest, plan: &ClaimedPlan) -> PlanVerdict {
     if let Some(arm) = &request.arm {
         motion(request, arm, plan, &mut verdict);
     }
+    if request.arm.is_none() && !plan.points.is_empty() {
+        let message = "the plan has a trajectory, but the request names no robot to judge it by".to_owned();
+        verdict.findings.push(Finding::new("unexpected_trajectory", message, Vec::new()));
+    }
     verdict.findings.truncate(MOST_FINDINGS);
     verdict
 }

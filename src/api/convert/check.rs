@@ -8,11 +8,27 @@ use crate::api::wire::{
 use crate::motion::{ClaimedView, Nearest, UNDERCUT_BOUND_M};
 use crate::plan::{ClaimedPlan, Finding, PlanRequest, PlanVerdict};
 
+/// Most views of a plan.
+const MOST_VIEWS: usize = 200;
+/// Most points of a trajectory that is judged.
+const MOST_POINTS: usize = 200_000;
+
 /// What the plan claims.
 ///
 /// # Errors
-/// 422 for ids that do not count from 0, and for poses that are none.
+/// 422 for a plan without views or with too many entries, for ids that do not count from 0, and for poses that are none.
 pub fn claimed_plan(json: CheckedPlanJson) -> Result<ClaimedPlan, Problem> {
+    let points = json.trajectory.as_ref().map_or(0, |trajectory| trajectory.points.len());
+    for (field, count, least, most) in [
+        ("plan.views", json.views.len(), 1, MOST_VIEWS),
+        ("plan.order", json.order.len(), 0, MOST_VIEWS),
+        ("plan.trajectory.points", points, 0, MOST_POINTS),
+    ] {
+        if !(least..=most).contains(&count) {
+            let bound = format!("from {least} to {most} entries");
+            return Err(Problem::field("out_of_range", field, count, bound));
+        }
+    }
     let mut views = Vec::with_capacity(json.views.len());
     for (index, view) in json.views.iter().enumerate() {
         if view.id as usize != index {

@@ -24,8 +24,9 @@ pub(super) struct StateTable {
 
 /// Times of straight legs from rest to rest within speed and acceleration limits.
 ///
-/// Joints that can turn all the way round at least twice are taken modulo a
-/// turn: which whole turns are used is settled afterwards, by the choice of states.
+/// Joints that can turn farther than all the way round are taken modulo a turn:
+/// which whole turns are used is settled afterwards, by the choice of states. No
+/// leg is faster than that says.
 #[derive(Clone, Debug)]
 pub(super) struct LegClock {
     /// A turn for joints taken modulo a turn, infinite for the others.
@@ -43,7 +44,7 @@ impl LegClock {
             inverse_acceleration: [0.0; MAX_JOINTS],
         };
         for (j, joint) in joints.iter().take(MAX_JOINTS).enumerate() {
-            if joint.upper_rad - joint.lower_rad >= 2.0 * std::f64::consts::TAU - 1e-6 {
+            if joint.upper_rad - joint.lower_rad > std::f64::consts::TAU + 1e-6 {
                 clock.period[j] = TAU;
             }
             clock.seconds_per_rad[j] = (1.0 / joint.max_speed_rad_per_s) as f32;

@@ -47,3 +47,23 @@ fn a_given_order_stays_when_time_counts() {
     assert!(plan.order.is_sorted() && plan.planned_count() > 6);
     assert_eq!(plan.compared, None);
 }
+
+#[test]
+fn no_plan_beats_its_own_bound_however_far_joints_may_turn() {
+    for (half_range_rad, x) in [(3.4, -0.4), (4.0, -0.4), (5.0, -0.45), (6.2, -0.4), (6.2831, -0.45)] {
+        let mut cell = cell("ur5e", x, 0.1);
+        for (index, joint) in cell.robot.joints.iter_mut().enumerate() {
+            if index != 2 {
+                (joint.lower_rad, joint.upper_rad) = (-half_range_rad, half_range_rad);
+            }
+        }
+        let views = views(&cell, 5, 0.3);
+        let order = by_camera_path(&cell, &views);
+        let mut request = MotionRequest::new(&cell, &views);
+        (request.objective, request.order) = (Objective::Time, Order::By(as_order(&order)));
+        request.timing.settle_s = 0.0;
+        let plan = plan_motion(&request).unwrap();
+        let Some(least_s) = plan.compared.as_ref().and_then(|c| c.least_duration_s) else { continue };
+        assert!(least_s <= plan.duration_s, "{half_range_rad}: {least_s} s against {} s", plan.duration_s);
+    }
+}
