@@ -136,12 +136,12 @@ async fn a_hand_eye_given_the_wrong_way_round_and_a_start_beside_its_limit_are_n
     assert!(codes(&plan).contains(&"hand_eye_backwards".to_owned()), "{plan}");
 
     let beside =
-        with(three.clone(), json!({"start": [0.0, -1.6, 1.6, -1.6, -1.57, 6.283185307179586 + 9e-4]}));
+        with(three.clone(), json!({"start": [0.0, -1.6, 1.6, -1.6, -1.57, std::f64::consts::TAU + 9e-4]}));
     let plan = server.post_json("/v1/plans", &beside).await;
     assert!(codes(&plan).contains(&"start_clamped".to_owned()), "{plan}");
     let first = &plan["trajectory"]["points"][0]["positions"];
     assert_eq!(first[5].as_f64(), Some(std::f64::consts::TAU));
-    let beyond = with(three, json!({"start": [0.0, -1.6, 1.6, -1.6, -1.57, 6.283185307179586 + 2e-3]}));
+    let beyond = with(three, json!({"start": [0.0, -1.6, 1.6, -1.6, -1.57, std::f64::consts::TAU + 2e-3]}));
     let refused = problem(server.post("/v1/plans", &beyond).await).await;
     assert_eq!((&refused["code"], &refused["field"]), (&json!("joint_limit"), &json!("start.wrist_3_joint")));
 }

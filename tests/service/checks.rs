@@ -91,7 +91,7 @@ const TAMPERINGS: [Tampering; 22] = [
         plan["views"][1]["pose"]["position"] = json!([0.45, 0.0, 0.45]);
         let tilted = &mut plan["views"][1]["pose"];
         // From the side: the camera looks along -x, its horizon upright.
-        *tilted = json!({"position": [0.75, 0.0, 0.15], "orientation": [0.0, -0.7071067811865476, 0.0, 0.7071067811865476]});
+        *tilted = json!({"position": [0.75, 0.0, 0.15], "orientation": [0.0, -std::f64::consts::FRAC_1_SQRT_2, 0.0, std::f64::consts::FRAC_1_SQRT_2]});
     }),
     ("view_missing", |_, plan| {
         plan["views"].as_array_mut().unwrap().pop();

@@ -50,7 +50,7 @@ fn a_given_order_stays_when_time_counts() {
 
 #[test]
 fn no_plan_beats_its_own_bound_however_far_joints_may_turn() {
-    for (half_range_rad, x) in [(3.4, -0.4), (4.0, -0.4), (5.0, -0.45), (6.2, -0.4), (6.2831, -0.45)] {
+    for (half_range_rad, x) in [(3.4, -0.4), (4.0, -0.4), (5.0, -0.45), (6.2, -0.4), (6.27, -0.45)] {
         let mut cell = cell("ur5e", x, 0.1);
         for (index, joint) in cell.robot.joints.iter_mut().enumerate() {
             if index != 2 {
