@@ -22,6 +22,7 @@ mod train;
 mod trained;
 mod training_views;
 mod view_rays;
+mod visual_hull;
 
 pub use bounds::Bounds;
 pub use error::NerfError;

@@ -22,18 +22,20 @@ const STRIDE: usize = 8;
 /// Largest recent opacity of each cell, and the map that marching reads.
 pub(super) struct Occupancy {
     opacity: Vec<f32>,
+    /// Cells that may be occupied.
+    hull: Vec<bool>,
     pub map: DistanceMap,
     updates: usize,
     blocks: Vec<DensityBlock>,
 }
 
 impl Occupancy {
-    /// Every cell occupied.
-    pub fn full() -> Occupancy {
-        let cells = CELLS * CELLS * CELLS;
+    /// Every cell of `hull` (one flag a cell, x fastest) occupied.
+    pub fn full(hull: Vec<bool>) -> Occupancy {
         Occupancy {
-            opacity: vec![1.0; cells],
-            map: DistanceMap::new(&vec![true; cells]),
+            opacity: vec![1.0; hull.len()],
+            map: DistanceMap::new(&hull),
+            hull,
             updates: 0,
             blocks: vec![DensityBlock::EMPTY; 64],
         }
@@ -45,8 +47,10 @@ impl Occupancy {
         self.updates += 1;
         let probed: Vec<u32> = (0..self.opacity.len())
             .filter(|&cell| {
-                all || cell % STRIDE == phase % STRIDE
-                    || (cell % 2 == phase % 2 && self.opacity[cell] > OCCUPIED)
+                self.hull[cell]
+                    && (all
+                        || cell % STRIDE == phase % STRIDE
+                        || (cell % 2 == phase % 2 && self.opacity[cell] > OCCUPIED))
             })
             .map(|cell| cell as u32)
             .collect();
@@ -77,7 +81,8 @@ impl Occupancy {
                 }
             }
         }
-        let occupied: Vec<bool> = self.opacity.iter().map(|&o| o > OCCUPIED).collect();
+        let occupied: Vec<bool> =
+            self.opacity.iter().zip(&self.hull).map(|(&o, &may)| may && o > OCCUPIED).collect();
         self.map = DistanceMap::new(&occupied);
     }
 }

@@ -18,6 +18,9 @@ pub struct NerfSettings {
     pub grid_rate: f32,
     /// Adam's rate for the two networks, with the same schedule.
     pub network_rate: f32,
+    /// Whether to trust the silhouettes of images with alpha: nothing may appear where one
+    /// view shows only background. True for masks as exact as rendered ones.
+    pub carve: bool,
     /// Kernels to use.
     pub instruction_set: InstructionSet,
 }
@@ -31,6 +34,7 @@ impl NerfSettings {
             seed: 0,
             grid_rate: 0.02,
             network_rate: 0.01,
+            carve: false,
             instruction_set: InstructionSet::best(),
         }
     }
@@ -38,7 +42,7 @@ impl NerfSettings {
     /// About a tenth of the cost, for labels, which need many NeRFs: 2 to 3 dB below
     /// [`Self::standard`] at every number of views.
     pub fn label() -> NerfSettings {
-        NerfSettings { steps: 1000, samples_per_step: 1024, ..Self::standard() }
+        NerfSettings { steps: 1000, samples_per_step: 1024, carve: true, ..Self::standard() }
     }
 
     /// Checks every number against its bound.

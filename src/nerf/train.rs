@@ -4,11 +4,13 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::composite::{Pixel, PixelGradient, composite, composite_backward};
+use super::distance_map::CELLS;
 use super::field::{Adam, Field, Gradients, Rate, backward, forward};
 use super::occupancy::Occupancy;
 use super::ray::{Ray, STEP};
 use super::trace::{Samples, Thresholds};
 use super::training_views::{TrainingRay, TrainingViews};
+use super::visual_hull::visual_hull;
 use super::{Bounds, Nerf, NerfError, NerfSettings};
 use crate::imaging::PosedImage;
 
@@ -52,8 +54,11 @@ pub fn train(
 ) -> Result<Nerf, NerfError> {
     settings.check()?;
     bounds.check()?;
-    let views = TrainingViews::new(views, bounds)?;
-    let mut trainer = Trainer::new(settings);
+    let photos = views;
+    let views = TrainingViews::new(photos, bounds)?;
+    let carved = settings.carve && views.background.is_none();
+    let hull = if carved { visual_hull(photos, bounds) } else { vec![true; CELLS * CELLS * CELLS] };
+    let mut trainer = Trainer::new(settings, hull);
     for step in 0..settings.steps {
         let loss = trainer.step(&views, step);
         let every = if step < PROBE_OFTEN_UNTIL { UPDATE_EVERY / 2 } else { UPDATE_EVERY };
@@ -80,14 +85,14 @@ struct Trainer {
 }
 
 impl Trainer {
-    fn new(settings: &NerfSettings) -> Trainer {
+    fn new(settings: &NerfSettings, hull: Vec<bool>) -> Trainer {
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
         let field = Field::new(&mut rng);
         Trainer {
             settings: *settings,
             gradients: Gradients::new(&field),
             adam: Adam::new(&field),
-            occupancy: Occupancy::full(),
+            occupancy: Occupancy::full(hull),
             samples: Samples::new(),
             group: GROUP.0,
             rng,
