@@ -5,6 +5,7 @@
 //! map joint angles to `base_from_flange` and back.
 
 mod axis;
+mod braking;
 mod chain;
 mod described;
 mod dh;

@@ -25,8 +25,9 @@ const GEOMETRY: [(f64, f64, f64, f64); 6] = [
 const LIMITS: [(f64, f64); 6] =
     [(-TAU, TAU), (-2.059, 2.0944), (-3.927, 0.19198), (-TAU, TAU), (-1.69297, PI), (-TAU, TAU)];
 
-/// Every joint's speed, rad/s (180 degrees a second).
-const SPEED_RAD_PER_S: f64 = PI;
+/// Every joint's speed, rad/s: 180 degrees a second, rounded down as the maker's URDF does.
+#[allow(clippy::approx_constant, reason = "the maker's number, a little below pi")]
+const SPEED_RAD_PER_S: f64 = 3.14;
 
 /// The arm without a tool.
 pub(super) fn model() -> Result<RobotModel, RobotError> {
@@ -57,11 +58,13 @@ pub(super) fn model() -> Result<RobotModel, RobotError> {
         base_frame: "link_base".to_owned(),
         flange_frame: "link_eef".to_owned(),
         sources: Source::of_model([
-            "UFACTORY xArm user manual, kinematics of xArm 6 (modified DH parameters). A real arm's \
-             calibration differs: send its URDF or DH table instead.",
+            "UFACTORY xArm user manual, kinematics of xArm 6 (modified DH parameters); the same lengths as in \
+             the maker's xarm_ros2, xarm_description/urdf/xarm6/xarm6.urdf.xacro. A real arm's calibration \
+             differs: send its URDF or DH table instead.",
             "UFACTORY xArm user manual, joint ranges of xArm 6 (+-360, -118..120, -225..11, +-360, -97..180, \
-             +-360 degrees).",
-            "UFACTORY xArm user manual, 180 degrees a second for every joint.",
+             +-360 degrees), in radians as in the maker's xarm6.urdf.xacro.",
+            "UFACTORY xArm user manual, 180 degrees a second for every joint; 3.14 rad/s in the maker's \
+             xarm6.urdf.xacro. The maker's settings for MoveIt hold every joint to 2.14 rad/s.",
             "assumed, 5 rad/s2 for every joint: the largest setting of the maker's software is no rated value.",
             "assumed: capsules from the DH lengths and the outlines of the housings; without cables, tool or \
              camera.",

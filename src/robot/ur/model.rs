@@ -55,15 +55,28 @@ fn joints(max_speed_deg_per_s: &[f64; 6]) -> Vec<Joint> {
 }
 
 fn sources(sheet: &Sheet) -> Vec<Source> {
-    let speeds = format!("Universal Robots, data sheet of the {}.", sheet.name.to_uppercase());
+    let Sheet { name, manual, .. } = sheet;
+    let limits = format!(
+        "Universal Robots, {manual}; Universal_Robots_ROS2_Description, config/{name}/joint_limits.yaml"
+    );
+    // The smallest arms' last joint knows no end.
+    let endless = if name.starts_with("ur3") && *name != "ur30" {
+        " Wrist 3 turns without end; plans keep it within +-360 degrees."
+    } else {
+        ""
+    };
+    let positions = format!(
+        "{limits}: +-360 degrees; the elbow is held to +-180 degrees, because a wider elbow cuts the free space \
+         into parts that no path joins.{endless}"
+    );
     Source::of_model([
         "Universal Robots, \"DH parameters for calculations of kinematics and dynamics\" (standard \
          convention); frame `base` to `tool0`. ROS `base_link` is `base` turned by pi about z. A real \
          arm's calibration differs by millimetres: send its URDF or DH table instead.",
-        "+-360 degrees as in the maker's data sheet; the elbow is held to +-180 degrees, because a wider \
-         elbow cuts the free space into parts that no path joins.",
-        &speeds,
-        "assumed, 5 rad/s2 for every joint; the maker publishes none.",
+        &positions,
+        &format!("{limits}."),
+        "assumed, 5 rad/s2 for every joint; the maker publishes none (its settings for MoveIt assume 5 too, \
+         3.14 in later versions for the UR5e).",
         "assumed: capsules from the DH lengths and the outlines of the housings; without cables, tool or \
          camera.",
     ])

@@ -40,6 +40,8 @@ pub(super) struct Sheet {
     pub name: &'static str,
     pub parameters: UrParameters,
     pub max_speed_deg_per_s: [f64; 6],
+    /// The maker's document with the joint speeds and ranges.
+    pub manual: &'static str,
 }
 
 /// The names of the arms below.
@@ -49,52 +51,62 @@ const fn lengths(d1_m: f64, a2_m: f64, a3_m: f64, d4_m: f64, d5_m: f64, d6_m: f6
     UrParameters { d1_m, a2_m, a3_m, d4_m, d5_m, d6_m }
 }
 
-/// Maker's published DH parameters and joint speeds.
+/// The maker's published DH parameters and joint speeds, as its package
+/// Universal_Robots_ROS2_Description has them (config/*/joint_limits.yaml, default_kinematics.yaml).
 pub(super) const SHEETS: [Sheet; 9] = [
     Sheet {
         name: "ur3",
         parameters: lengths(0.1519, -0.24365, -0.21325, 0.11235, 0.08535, 0.0819),
         max_speed_deg_per_s: [180.0, 180.0, 180.0, 360.0, 360.0, 360.0],
+        manual: "UR3 User Manual (CB3), version 3.13",
     },
     Sheet {
         name: "ur3e",
         parameters: lengths(0.15185, -0.24355, -0.2132, 0.13105, 0.08535, 0.0921),
         max_speed_deg_per_s: [180.0, 180.0, 180.0, 360.0, 360.0, 360.0],
+        manual: "UR3e User Manual, version 5.8",
     },
     Sheet {
         name: "ur5",
         parameters: lengths(0.089159, -0.425, -0.39225, 0.10915, 0.09465, 0.0823),
         max_speed_deg_per_s: [180.0; 6],
+        manual: "UR5 User Manual (CB3), version 3.13",
     },
     Sheet {
         name: "ur5e",
         parameters: lengths(0.1625, -0.425, -0.3922, 0.1333, 0.0997, 0.0996),
         max_speed_deg_per_s: [180.0; 6],
+        manual: "UR5e User Manual, version 5.8",
     },
     Sheet {
         name: "ur10",
         parameters: lengths(0.1273, -0.612, -0.5723, 0.163941, 0.1157, 0.0922),
         max_speed_deg_per_s: [120.0, 120.0, 180.0, 180.0, 180.0, 180.0],
+        manual: "UR10 User Manual (CB3), version 3.13",
     },
     Sheet {
         name: "ur10e",
         parameters: lengths(0.1807, -0.6127, -0.57155, 0.17415, 0.11985, 0.11655),
         max_speed_deg_per_s: [120.0, 120.0, 180.0, 180.0, 180.0, 180.0],
+        manual: "UR10e User Manual, version 5.8",
     },
     Sheet {
         name: "ur16e",
         parameters: lengths(0.1807, -0.4784, -0.36, 0.17415, 0.11985, 0.11655),
         max_speed_deg_per_s: [120.0, 120.0, 180.0, 180.0, 180.0, 180.0],
+        manual: "UR16e User Manual, version 5.8",
     },
     Sheet {
         name: "ur20",
         parameters: lengths(0.2363, -0.862, -0.7287, 0.201, 0.1593, 0.1543),
         max_speed_deg_per_s: [120.0, 120.0, 150.0, 210.0, 210.0, 210.0],
+        manual: "UR20 User Manual, version 5.14",
     },
     Sheet {
         name: "ur30",
         parameters: lengths(0.2363, -0.637, -0.5037, 0.201, 0.1593, 0.1543),
         max_speed_deg_per_s: [120.0, 120.0, 150.0, 210.0, 210.0, 210.0],
+        manual: "UR20 User Manual, version 5.14 (the maker gives the UR30 the same)",
     },
 ];
 
