@@ -4,6 +4,7 @@
 //! before anything is built from them.
 
 mod arm;
+mod attached;
 mod guard;
 mod joints;
 mod shapes;

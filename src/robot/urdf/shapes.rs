@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::attached::AttachedMeshes;
 use super::joints::origin;
 use super::tree::{Tree, element};
 use crate::geometry::{Point, Pose, Vector};
@@ -12,7 +13,7 @@ use crate::robot::{LinkShape, Meshes, RobotError, RobotWarning};
 const MOST_SHAPES: usize = 256;
 
 /// Longest edge or radius, metres.
-const LARGEST_M: f64 = 5.0;
+pub(super) const LARGEST_M: f64 = 5.0;
 
 /// The shapes of an arm, one list for the base and one for each moving link.
 pub(super) struct ArmShapes {
@@ -30,6 +31,7 @@ pub(super) fn gather(
     meshes: &Meshes,
 ) -> Result<ArmShapes, RobotError> {
     let mut arm = ArmShapes { shapes: vec![Vec::new(); moving.len() + 1], warnings: Vec::new() };
+    let mut attached = AttachedMeshes::new(meshes);
     let mut frozen = Vec::new();
     let mut count = 0;
     // Every link has one joint above it, so each is visited once, except the base if it closes a cycle.
@@ -45,7 +47,7 @@ pub(super) fn gather(
             let shape = match &collision.geometry {
                 urdf_rs::Geometry::Mesh { filename, scale } => {
                     let scale = scale.map_or([1.0; 3], |scale| scale.0);
-                    mesh(&described.name, filename, scale, &frame, meshes, &mut arm.warnings)?
+                    attached.shape(&described.name, filename, scale, &frame)?
                 }
                 geometry => Some(primitive(&described.name, geometry, frame)?),
             };
@@ -70,6 +72,7 @@ pub(super) fn gather(
             }
         }
     }
+    arm.warnings.extend(attached.into_warnings());
     if !frozen.is_empty() {
         let names = listed(&mut frozen);
         let message = format!("joints beside the arm are taken as fixed at 0: {names}");
@@ -79,7 +82,7 @@ pub(super) fn gather(
 }
 
 /// The first names in order, each once.
-fn listed(names: &mut Vec<String>) -> String {
+pub(super) fn listed(names: &mut Vec<String>) -> String {
     names.sort();
     names.dedup();
     let more = names.len().saturating_sub(16);
@@ -88,72 +91,6 @@ fn listed(names: &mut Vec<String>) -> String {
         list.push_str(&format!(" and {more} more"));
     }
     list
-}
-
-/// The shape that stands for a mesh; without the file the mesh is left out with a warning.
-fn mesh(
-    link: &str,
-    filename: &str,
-    scale: [f64; 3],
-    frame: &Pose,
-    meshes: &Meshes,
-    warnings: &mut Vec<RobotWarning>,
-) -> Result<Option<LinkShape>, RobotError> {
-    let file = cut(filename);
-    let link_name = short(link);
-    let Some(bytes) = meshes.get(filename) else {
-        warnings.push(RobotWarning::mesh_left_out(format!(
-            "link {link_name:?}: its collision mesh {file:?} is left out; attach the file or describe the \
-             link by boxes, cylinders and spheres"
-        )));
-        return Ok(None);
-    };
-    let refuse = |problem: String| element("mesh", filename, problem);
-    if let Some(factor) = scale.iter().find(|factor| !(factor.abs() >= 1e-6 && factor.abs() <= 1e3)) {
-        return Err(refuse(format!("its scale has {factor}, from 1e-6 to 1000 is taken")));
-    }
-    let [x, y, z] = scale;
-    let mut points = crate::robot::mesh::points(bytes).map_err(refuse)?;
-    points.iter_mut().for_each(|p| *p = Point::new(p.x * x, p.y * y, p.z * z));
-    if let Some(far) = points.iter().flat_map(|p| p.iter()).find(|v| v.abs() > LARGEST_M) {
-        let problem = format!(
-            "a corner is at {far} m, at most {LARGEST_M} m are taken; a mesh in millimetres needs scale 0.001"
-        );
-        return Err(refuse(problem));
-    }
-    let Some(shape) = crate::robot::mesh::fit(&points) else { return Ok(None) };
-    let (kind, shape) = placed(frame, shape);
-    warnings.push(RobotWarning::mesh_replaced(format!(
-        "link {link_name:?}: a {kind} that holds it stands for the collision mesh {file:?}"
-    )));
-    Ok(Some(shape))
-}
-
-/// A shape of a mesh's frame in its link's frame, and what it is called.
-fn placed(link_from_mesh: &Pose, shape: LinkShape) -> (&'static str, LinkShape) {
-    match shape {
-        LinkShape::Capsule { from_in_link, to_in_link, radius_m } => (
-            "capsule",
-            LinkShape::Capsule {
-                from_in_link: link_from_mesh * from_in_link,
-                to_in_link: link_from_mesh * to_in_link,
-                radius_m,
-            },
-        ),
-        LinkShape::Cuboid { link_from_box, half_extents_m } => {
-            ("box", LinkShape::Cuboid { link_from_box: link_from_mesh * link_from_box, half_extents_m })
-        }
-        LinkShape::Cylinder { link_from_cylinder, half_length_m, radius_m } => {
-            let link_from_cylinder = link_from_mesh * link_from_cylinder;
-            ("cylinder", LinkShape::Cylinder { link_from_cylinder, half_length_m, radius_m })
-        }
-    }
-}
-
-/// A file name of bounded length, its end kept: that is what tells files apart.
-fn cut(filename: &str) -> String {
-    let count = filename.chars().count();
-    filename.chars().skip(count.saturating_sub(128)).collect()
 }
 
 /// One shape other than a mesh in the frame of its moving link.
