@@ -3,17 +3,15 @@
 use std::convert::Infallible;
 use std::sync::Arc;
 
-use axum::extract::State;
 use axum::http::HeaderMap;
 use axum::response::sse::{Event, KeepAlive, Sse};
 use futures::stream::{Stream, unfold};
 use tokio::sync::watch;
 
-use super::executions::find;
+use super::refusals::RunRefusals;
+use super::run::{FoundRun, RunId};
 use crate::api::executions::Entry;
-use crate::api::extract::PathParam;
-use crate::api::problem::{Problem, ProblemJson};
-use crate::api::state::AppState;
+use crate::api::problem::Problem;
 
 /// Where a listener stands.
 struct Listener {
@@ -33,20 +31,18 @@ struct Listener {
 #[utoipa::path(
     get, path = "/v1/executions/{id}/events", tag = "executions",
     params(
-        ("id" = String, Path, description = "The run's id"),
+        RunId,
         ("Last-Event-ID" = Option<u64>, Header, description = "The last event received"),
     ),
     responses(
         (status = 200, description = "Events state, view and progress", content_type = "text/event-stream"),
-        (status = 404, description = "No such run", body = ProblemJson, content_type = "application/problem+json"),
+        RunRefusals,
     )
 )]
 pub async fn stream(
-    State(app): State<AppState>,
-    PathParam(id): PathParam<String>,
+    FoundRun { entry, .. }: FoundRun,
     headers: HeaderMap,
 ) -> Result<Sse<impl Stream<Item = Result<Event, Infallible>>>, Problem> {
-    let entry = find(&app, &id)?;
     let next = match headers.get("last-event-id") {
         None => 0,
         Some(value) => value.to_str().ok().and_then(|text| text.parse().ok()).ok_or_else(|| {

@@ -1,15 +1,15 @@
 //! `/v1/executions`: start, look, cancel.
 
-use std::sync::Arc;
-
 use axum::Json;
 use axum::extract::{FromRequest, Request, State};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::off_thread;
-use crate::api::executions::{Entry, prepare};
-use crate::api::extract::{JsonBody, PathParam};
+use super::refusals::{BodyRefusals, RunRefusals};
+use super::run::{FoundRun, RunId};
+use crate::api::executions::prepare;
+use crate::api::extract::JsonBody;
 use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 use crate::api::wire::{CreateExecution, ExecutionJson, ExecutionList};
@@ -22,9 +22,8 @@ use crate::api::wire::{CreateExecution, ExecutionJson, ExecutionList};
     post, path = "/v1/executions", tag = "executions", request_body = CreateExecution,
     responses(
         (status = 202, description = "Queued", body = ExecutionJson),
+        BodyRefusals,
         (status = 404, description = "No such plan", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 422, description = "A member is refused", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 503, description = "Too many runs wait", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn create(State(app): State<AppState>, request: Request) -> Result<Response, Problem> {
@@ -53,39 +52,30 @@ pub async fn list(State(app): State<AppState>) -> Json<ExecutionList> {
 
 /// State and progress of a run.
 #[utoipa::path(
-    get, path = "/v1/executions/{id}", tag = "executions", params(("id" = String, Path, description = "The run's id")),
+    get, path = "/v1/executions/{id}", tag = "executions", params(RunId),
     responses(
         (status = 200, description = "The run", body = ExecutionJson),
-        (status = 404, description = "No such run", body = ProblemJson, content_type = "application/problem+json"),
+        RunRefusals,
     )
 )]
-pub async fn get(
-    State(app): State<AppState>,
-    PathParam(id): PathParam<String>,
-) -> Result<Json<ExecutionJson>, Problem> {
-    Ok(Json(find(&app, &id)?.execution()))
+pub async fn get(run: FoundRun) -> Json<ExecutionJson> {
+    Json(run.entry.execution())
 }
 
 /// Stop a run: the arm stands still where it is, photos taken so far stay.
 #[utoipa::path(
-    post, path = "/v1/executions/{id}/cancel", tag = "executions", params(("id" = String, Path, description = "The run's id")),
+    post, path = "/v1/executions/{id}/cancel", tag = "executions", params(RunId),
     responses(
         (status = 202, description = "Asked to stop", body = ExecutionJson),
-        (status = 404, description = "No such run", body = ProblemJson, content_type = "application/problem+json"),
+        RunRefusals,
         (status = 409, description = "It is over", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn cancel(
     State(app): State<AppState>,
-    PathParam(id): PathParam<String>,
+    run: FoundRun,
 ) -> Result<(StatusCode, Json<ExecutionJson>), Problem> {
-    let entry = find(&app, &id)?;
-    let cancel = move || app.executions.cancel(&entry).map(|()| entry.execution());
+    let cancel = move || app.executions.cancel(&run.entry).map(|()| run.entry.execution());
     let execution = off_thread(cancel).await?;
     Ok((StatusCode::ACCEPTED, Json(execution)))
-}
-
-/// The run with this id.
-pub(super) fn find(app: &AppState, id: &str) -> Result<Arc<Entry>, Problem> {
-    app.executions.get(id).ok_or_else(|| Problem::not_found("unknown_execution", "id", id, "the id of a run"))
 }

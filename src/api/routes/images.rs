@@ -6,9 +6,12 @@ use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use serde::Deserialize;
+use utoipa::IntoParams;
 
-use super::executions::find;
 use super::json_bytes;
+use super::refusals::RunRefusals;
+use super::run::{FoundRun, RunId};
 use crate::api::extract::PathParam;
 use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
@@ -17,21 +20,29 @@ use crate::api::wire::ExecutionImages;
 /// Bound of the photos that are sent in one JSON document: what `POST /v1/plans` takes.
 const MOST_IMAGES: usize = crate::plan::MAX_PHOTOS;
 
+/// Which photo of a run.
+#[derive(Clone, Copy, Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+pub struct ViewId {
+    /// The view's id
+    pub view: u32,
+}
+
 /// The photos of a run as base64 with their poses and camera: merged into a request, they are ready
 /// for `POST /v1/plans`. At most five.
 #[utoipa::path(
-    get, path = "/v1/executions/{id}/images", tag = "executions", params(("id" = String, Path, description = "The run's id")),
+    get, path = "/v1/executions/{id}/images", tag = "executions", params(RunId),
     responses(
         (status = 200, description = "Photos in the order taken", body = ExecutionImages),
-        (status = 404, description = "No such run", body = ProblemJson, content_type = "application/problem+json"),
+        RunRefusals,
         (status = 422, description = "More than five photos: fetch them one by one", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn list(
     State(app): State<AppState>,
-    PathParam(id): PathParam<String>,
+    FoundRun { id, entry }: FoundRun,
 ) -> Result<Json<ExecutionImages>, Problem> {
-    let record = find(&app, &id)?.record();
+    let record = entry.record();
     let count = record.execution.images.len();
     if count > MOST_IMAGES {
         let bound = format!("at most {MOST_IMAGES}; fetch /v1/executions/{id}/images/{{view}} one by one");
@@ -47,17 +58,18 @@ pub async fn list(
 /// The photo of one view, PNG.
 #[utoipa::path(
     get, path = "/v1/executions/{id}/images/{view}", tag = "executions",
-    params(("id" = String, Path, description = "The run's id"), ("view" = u32, Path, description = "The view's id")),
+    params(RunId, ViewId),
     responses(
         (status = 200, description = "PNG", content_type = "image/png"),
-        (status = 404, description = "No such run, or the view is not taken (yet)", body = ProblemJson, content_type = "application/problem+json"),
+        RunRefusals,
     )
 )]
 pub async fn get(
     State(app): State<AppState>,
-    PathParam((id, view)): PathParam<(String, u32)>,
+    FoundRun { id, entry }: FoundRun,
+    PathParam(ViewId { view }): PathParam<ViewId>,
 ) -> Result<Response, Problem> {
-    let taken = find(&app, &id)?.execution().images;
+    let taken = entry.execution().images;
     if !taken.contains(&view) {
         let bound = format!("one of the views taken so far, {taken:?}");
         return Err(Problem::not_found("unknown_image", "view", &view.to_string(), bound));
@@ -69,17 +81,17 @@ pub async fn get(
 
 /// Cameras and poses of all photos as instant-ngp and nerfstudio read them.
 #[utoipa::path(
-    get, path = "/v1/executions/{id}/transforms.json", tag = "executions", params(("id" = String, Path, description = "The run's id")),
+    get, path = "/v1/executions/{id}/transforms.json", tag = "executions", params(RunId),
     responses(
         (status = 200, description = "transforms.json; file paths are relative to the run's directory", content_type = "application/json"),
-        (status = 404, description = "No such run, or it is not over yet", body = ProblemJson, content_type = "application/problem+json"),
+        RunRefusals,
     )
 )]
 pub async fn transforms(
     State(app): State<AppState>,
-    PathParam(id): PathParam<String>,
+    FoundRun { id, entry }: FoundRun,
 ) -> Result<Response, Problem> {
-    let state = find(&app, &id)?.execution().state;
+    let state = entry.execution().state;
     match tokio::fs::read(app.executions.store().path(&id).join("transforms.json")).await {
         Ok(bytes) => Ok(json_bytes(bytes)),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {

@@ -9,7 +9,9 @@ pub mod objects;
 pub mod plans;
 pub mod predictions;
 pub mod reachability;
+mod refusals;
 pub mod robots;
+mod run;
 pub mod view_spaces;
 
 use axum::http::{HeaderValue, header};

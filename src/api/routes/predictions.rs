@@ -3,8 +3,9 @@
 use axum::Json;
 use axum::extract::{FromRequest, Request, State};
 
+use super::refusals::BodyRefusals;
 use crate::api::extract::JsonBody;
-use crate::api::problem::{Problem, ProblemJson};
+use crate::api::problem::Problem;
 use crate::api::state::AppState;
 use crate::api::wire::{PredictionAnswer, PredictionRequest};
 
@@ -13,8 +14,7 @@ use crate::api::wire::{PredictionAnswer, PredictionRequest};
     post, path = "/v1/predictions", tag = "plans", request_body = PredictionRequest,
     responses(
         (status = 200, description = "The number, and the poses from which the photos are expected", body = PredictionAnswer),
-        (status = 422, description = "A member is refused", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 503, description = "Overloaded, or no model", body = ProblemJson, content_type = "application/problem+json"),
+        BodyRefusals,
     )
 )]
 pub async fn create(

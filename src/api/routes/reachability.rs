@@ -5,9 +5,10 @@ use axum::extract::{FromRequest, Request, State};
 use serde::Deserialize;
 use utoipa::IntoParams;
 
+use super::refusals::BodyRefusals;
 use crate::api::extract::{JsonBody, QueryParams};
 use crate::api::planner::reachability_of;
-use crate::api::problem::{Problem, ProblemJson};
+use crate::api::problem::Problem;
 use crate::api::state::AppState;
 use crate::api::wire::{PlanRequestJson, ReachabilityAnswer};
 
@@ -31,11 +32,7 @@ pub struct ReachabilityQuery {
     post, path = "/v1/reachability", tag = "views", request_body = PlanRequestJson, params(ReachabilityQuery),
     responses(
         (status = 200, description = "The band in rows and columns, and better places for the object", body = ReachabilityAnswer),
-        (status = 400, description = "No JSON", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 413, description = "Body over 32 MiB", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 415, description = "Not application/json", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 422, description = "A member is refused: field, value and bound tell", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 503, description = "Overloaded", body = ProblemJson, content_type = "application/problem+json"),
+        BodyRefusals,
     )
 )]
 pub async fn create(
