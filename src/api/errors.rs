@@ -24,8 +24,8 @@ impl From<FieldValue> for Value {
     }
 }
 
-/// Beyond this a joint angle looks like degrees, radians.
-const NO_RADIANS: f64 = 15.0;
+/// Beyond this a joint angle looks like degrees, radians: two turns.
+const NO_RADIANS: f64 = 4.0 * std::f64::consts::PI;
 
 /// JSON knows no NaN: it is named as a text.
 fn json_number(number: f64) -> Value {
@@ -106,11 +106,18 @@ impl From<RobotError> for Problem {
             RobotError::JointCount { found, least, most } => {
                 Problem::field("joint_count", "robot", found, format!("{least} to {most} moving joints"))
             }
+            // Of URDF alone: a DH table's numbers are named by their rows.
             RobotError::OutOfRange { joint, field, value, least, most, hint } => Problem::field(
                 "out_of_range",
-                format!("robot.{joint}.{field}"),
+                "robot.urdf",
                 json_number(value),
-                format!("within [{least}, {most}]{hint}"),
+                format!("within [{least:.4}, {most:.4}] as joint {joint}'s {field}{hint}"),
+            ),
+            RobotError::DhRow { row, field, value, least, most, hint } => Problem::field(
+                "out_of_range",
+                format!("robot.dh[{row}].{field}"),
+                json_number(value),
+                format!("within [{least:.4}, {most:.4}]{hint}"),
             ),
             RobotError::UnknownJoint { name, known } => {
                 Problem::field("unknown_joint", format!("limits.{name}"), name, format!("one of {known}"))
@@ -121,20 +128,30 @@ impl From<RobotError> for Problem {
             RobotError::StateLength { found, expected } => {
                 Problem::field("joint_count", "start", found, format!("{expected} joint angles"))
             }
-            RobotError::BeyondLimit { joint, value_rad, bound_rad } => Problem::field(
-                "joint_limit",
-                format!("start.{joint}"),
-                json_number(value_rad),
-                format!(
-                    "within the joint's limit {bound_rad} rad{}",
-                    if value_rad.abs() > NO_RADIANS { " (degrees?)" } else { "" }
-                ),
-            ),
+            RobotError::BeyondLimit { index, joint, value_rad, bound_rad } => {
+                let side = if value_rad < bound_rad { "at least" } else { "at most" };
+                let hint = match value_rad.abs() > NO_RADIANS {
+                    true => format!(" (degrees? {value_rad} degrees are {:.4} rad)", value_rad.to_radians()),
+                    false => String::new(),
+                };
+                Problem::field(
+                    "joint_limit",
+                    format!("start[{index}]"),
+                    json_number(value_rad),
+                    format!("{side} {bound_rad:.4} rad, the limit of {joint}{hint}"),
+                )
+            }
             RobotError::Urdf(reason) => Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "urdf", text).at(
                 "robot.urdf",
                 reason,
                 "a URDF of one serial arm",
             ),
+            RobotError::UrdfElement { kind: "mesh", name, problem } => Problem::new(
+                StatusCode::UNPROCESSABLE_ENTITY,
+                "urdf",
+                text,
+            )
+            .at(format!("robot.meshes.{name}"), "a file", format!("a mesh: {problem}")),
             RobotError::UrdfElement { kind, name, problem } => Problem::new(
                 StatusCode::UNPROCESSABLE_ENTITY,
                 "urdf",
@@ -169,12 +186,20 @@ impl From<MotionError> for Problem {
                 let value = format!("{first} and {second} overlap by {depth_m:.4} m");
                 Problem::field("start_collides", "start", value, "free of collisions")
             }
-            MotionError::TooManyPoints { most } => {
-                Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "trajectory_too_long", text).at(
-                    "robot",
-                    Value::Null,
-                    format!("speeds for at most {most} points of the trajectory"),
-                )
+            MotionError::TooManyPoints { most, duration_s, sample_period_s, speed_scale, least_period_s } => {
+                let too_long = Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "trajectory_too_long", text);
+                match least_period_s {
+                    Some(least_s) => too_long.at(
+                        "timing.sample_period",
+                        json_number(sample_period_s),
+                        format!("at least {least_s:.3} s: a plan has at most {most} points and this one moves for {duration_s:.1} s"),
+                    ),
+                    None => too_long.at(
+                        "timing.speed_scale",
+                        json_number(speed_scale),
+                        format!("larger, as the limits of the joints' speeds: at most {most} points a second apart are planned, and this motion takes {duration_s:.0} s"),
+                    ),
+                }
             }
             MotionError::BadOrder { .. } => Problem::internal(text),
         }

@@ -23,10 +23,14 @@ mod wire;
 
 pub use checker::check_plan;
 pub use config::ServiceConfig;
+pub use convert::{coverage_json, robot_details, warnings_json};
 pub use drawing::{plan_panel, reach_map};
 pub use extract::{MAX_BODY_BYTES, parse_json};
 pub use openapi::openapi_json;
-pub use planner::{Planner, reachability_of};
+pub use planner::{Planner, ResolvedRequest, reachability_of};
 pub use problem::{Problem, ProblemJson};
 pub use server::serve;
-pub use wire::{CheckAnswer, CheckedPlanJson, PlanAnswer, PlanRequestJson, ReachabilityAnswer};
+pub use wire::{
+    CheckAnswer, CheckedPlanJson, CoverageReportJson, PlanAnswer, PlanRequestJson, ReachabilityAnswer,
+    WarningJson,
+};

@@ -11,6 +11,23 @@ use super::wire::{PlanAnswer, PlanRequestJson, PredictionAnswer, PredictionReque
 use crate::plan::{self, expected_views, make_plan, predict_count};
 use crate::predict::{Predictor, model_bytes};
 
+/// A request in its canonical form: requests that mean the same are the same, and so are their plans.
+#[derive(Clone, Debug)]
+pub struct ResolvedRequest(PlanRequestJson);
+
+impl From<PlanRequestJson> for ResolvedRequest {
+    fn from(json: PlanRequestJson) -> Self {
+        Self(convert::canonical(json))
+    }
+}
+
+impl ResolvedRequest {
+    /// The request without its photos, which are not kept.
+    pub fn without_images(self) -> PlanRequestJson {
+        PlanRequestJson { images: None, ..self.0 }
+    }
+}
+
 /// Plans requests with one model, or without when none can be had.
 pub struct Planner {
     predictor: Result<Predictor, String>,
@@ -34,9 +51,12 @@ impl Planner {
         self.predictor.as_ref().map_or("none", |predictor| &predictor.info().sha256)
     }
 
-    /// The id of a request's plan: a hash of its canonical form, this version and the model.
-    pub fn plan_id(&self, request: &PlanRequestJson) -> Result<String, Problem> {
-        let canonical = serde_json::to_vec(request).map_err(|e| Problem::internal(e.to_string()))?;
+    /// The id of a request's plan: a hash of what it means, this version and the model.
+    ///
+    /// # Errors
+    /// None that a request can cause.
+    pub fn plan_id(&self, request: &ResolvedRequest) -> Result<String, Problem> {
+        let canonical = convert::identity(&request.0).map_err(|e| Problem::internal(e.to_string()))?;
         let mut hash = Sha256::new();
         for part in [env!("CARGO_PKG_VERSION").as_bytes(), self.model_hash().as_bytes(), &canonical] {
             hash.update((part.len() as u64).to_le_bytes());
@@ -49,10 +69,10 @@ impl Planner {
     ///
     /// # Errors
     /// A [`Problem`] for what cannot be planned.
-    pub fn plan(&self, json: &PlanRequestJson) -> Result<PlanAnswer, Problem> {
+    pub fn plan(&self, resolved: &ResolvedRequest) -> Result<PlanAnswer, Problem> {
         let begin = Instant::now();
-        let id = self.plan_id(json)?;
-        let request = convert::plan_request(json)?;
+        let id = self.plan_id(resolved)?;
+        let request = convert::plan_request(&resolved.0)?;
         let decoded = begin.elapsed();
         let predictor = self.predictor.as_ref().map_err(String::as_str);
         let mut plan = make_plan(&request, predictor)?;

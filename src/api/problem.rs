@@ -81,7 +81,10 @@ impl Problem {
         bound: impl Into<String>,
     ) -> Self {
         let (field, value, bound) = (field.into(), shorten(value.into()), bound.into());
-        let detail = format!("{field} is {value}, must be {bound}");
+        let detail = match &value {
+            serde_json::Value::Null => format!("{field} is missing, must be {bound}"),
+            value => format!("{field} is {value}, must be {bound}"),
+        };
         Self::new(StatusCode::UNPROCESSABLE_ENTITY, code, detail).at(field, value, bound)
     }
 
@@ -95,6 +98,18 @@ impl Problem {
         self.field = Some(field.into());
         self.value = Some(shorten(value.into()));
         self.bound = Some(bound.into());
+        self
+    }
+
+    /// The same problem with its member named as another request names it, in its text too.
+    pub fn rename(mut self, name: impl FnOnce(&str) -> String) -> Self {
+        if let Some(field) = self.field.take() {
+            let named = name(&field);
+            if let Some(rest) = self.detail.strip_prefix(&field) {
+                self.detail = format!("{named}{rest}");
+            }
+            self.field = Some(named);
+        }
         self
     }
 
@@ -123,10 +138,18 @@ impl Problem {
     }
 }
 
-/// Values are echoed so that they can be recognised, not sent back whole.
+/// Values are echoed so that they can be recognised, not sent back whole. Whole numbers are
+/// written as such: JSON knows no difference between 64 and 64.0, but readers do.
 fn shorten(value: serde_json::Value) -> serde_json::Value {
     const LONGEST: usize = 80;
+    const LARGEST_WHOLE: f64 = 1e15;
     match value {
+        serde_json::Value::Number(number) => match number.as_f64() {
+            Some(float) if number.is_f64() && float.fract() == 0.0 && float.abs() < LARGEST_WHOLE => {
+                (float as i64).into()
+            }
+            _ => serde_json::Value::Number(number),
+        },
         serde_json::Value::String(text) if text.chars().count() > LONGEST => {
             let head: String = text.chars().take(LONGEST).collect();
             serde_json::Value::String(format!("{head}... ({} characters)", text.chars().count()))

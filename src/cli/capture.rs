@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat};
 use indicatif::{ProgressBar, ProgressStyle};
+use prv::api::{coverage_json, warnings_json};
 use prv::geometry::{Point, Pose};
 use prv::imaging::{Camera, composite};
-use prv::motion::{Objective, Roll, Timing};
+use prv::motion::Roll;
 use prv::order::Obstacle;
 use prv::plan::{
-    Arm, ObjectSphere, Plan, PlanRequest, Surroundings, UnreachableViews, ViewShell, ViewSource, ViewStatus,
-    make_plan,
+    Arm, ObjectSphere, Plan, PlanRequest, UnreachableViews, ViewShell, ViewSource, ViewStatus, make_plan,
 };
 use prv::render::{Mesh, sample_names, sample_object};
 use prv::robot::RobotModel;
@@ -25,7 +25,8 @@ use super::camera_flag::CameraFlag;
 
 /// Photograph an object with the simulated camera: images/*.png and transforms.json.
 ///
-/// The camera flies freely, or hangs on a robot's flange with --robot.
+/// The camera flies freely, or hangs on a robot's flange with --robot. What is left out is as in a
+/// request to the service.
 #[derive(clap::Args)]
 pub struct Args {
     /// An OBJ or glTF file, library.sh3f#entry, or sample:NAME.
@@ -58,16 +59,47 @@ pub struct Args {
     /// Highest elevation of a view, degrees.
     #[arg(long, env = "PRV_MAX_ELEVATION", default_value_t = 90.0, allow_hyphen_values = true)]
     max_elevation: f64,
-    /// A robot that carries the camera, by name; of N views those out of its reach are
-    /// replaced by others within it, with a warning.
+    /// A robot that carries the camera, by name.
     #[arg(long, env = "PRV_ROBOT")]
     robot: Option<String>,
+    /// Whether a view may be turned about its optical axis.
+    #[arg(long, env = "PRV_ROLL_FREEDOM", value_enum, default_value_t, requires = "robot")]
+    roll: RollArg,
+    /// Number of evenly spaced turns to choose among, 1 to 64, with --roll sampled.
+    #[arg(long, env = "PRV_ROLL_SAMPLES", required_if_eq("roll", "sampled"), value_parser = clap::value_parser!(u8).range(1..=64))]
+    roll_samples: Option<u8>,
+    /// What becomes of those of N views that the robot cannot reach.
+    #[arg(long, env = "PRV_UNREACHABLE", value_enum, default_value_t, requires = "robot")]
+    unreachable: UnreachableArg,
     /// Opaque white behind the object instead of transparency.
     #[arg(long, env = "PRV_WHITE")]
     white: bool,
-    /// Print what was done as JSON.
+    /// Print what was done as JSON: `images` in the order in which they were taken, which is that of the
+    /// frames in transforms.json; `warnings`, `coverage` and `skipped` as in a plan.
     #[arg(long, env = "PRV_JSON")]
     json: bool,
+}
+
+/// The freedom of roll, as `roll` of a request.
+#[derive(Clone, Copy, Debug, Default, PartialEq, clap::ValueEnum)]
+enum RollArg {
+    /// The horizon stays level.
+    #[default]
+    Fixed,
+    /// Chosen among 12 turns for least joint motion.
+    Free,
+    /// Chosen among --roll-samples turns.
+    Sampled,
+}
+
+/// What becomes of views out of reach, as `unreachable_views` of a request.
+#[derive(Clone, Copy, Debug, Default, PartialEq, clap::ValueEnum)]
+enum UnreachableArg {
+    /// The set is spread again over what can be reached.
+    #[default]
+    Replace,
+    /// They are left out, with their reasons.
+    Skip,
 }
 
 /// Takes the photos.
@@ -101,18 +133,19 @@ fn request(args: &Args) -> Result<PlanRequest, Box<dyn std::error::Error>> {
             number.parse().map_err(|_| format!("--views {number}: initial, initial-five or a number"))?,
         ),
     };
+    let roll = match (args.roll, args.roll_samples) {
+        (RollArg::Fixed, None) => Roll::Fixed,
+        (RollArg::Free, None) => Roll::FREE,
+        (RollArg::Sampled, samples) => Roll::Free { samples: samples.map_or(1, usize::from) },
+        (_, Some(_)) => return Err("--roll-samples is for --roll sampled alone".into()),
+    };
+    let unreachable_views = match args.unreachable {
+        UnreachableArg::Replace => UnreachableViews::Replace,
+        UnreachableArg::Skip => UnreachableViews::Skip,
+    };
     let arm = match &args.robot {
         None => None,
-        Some(name) => Some(Arm {
-            model: RobotModel::named(name)?,
-            flange_from_camera: None,
-            start_rad: None,
-            surroundings: Surroundings::default(),
-            timing: Timing::default(),
-            roll: Roll::FREE,
-            objective: Objective::Distance,
-            unreachable_views: UnreachableViews::default(),
-        }),
+        Some(name) => Some(Arm { roll, unreachable_views, ..Arm::new(RobotModel::named(name)?) }),
     };
     let (width, height) = args.size;
     let camera = scaled(args.camera.for_size(width, height), width, height);
@@ -217,7 +250,13 @@ fn report(args: &Args, plan: &Plan, photos: &[(PathBuf, Pose)]) -> CliResult {
             .collect();
         let images: Vec<_> = photos.iter().map(|(file, _)| file).collect();
         let answer = serde_json::json!({
-            "directory": args.out, "images": images, "skipped": skipped, "path_length_m": plan.path.length_m,
+            "directory": args.out,
+            "robot": args.robot.as_ref().map(|name| name.to_ascii_lowercase()),
+            "images": images,
+            "skipped": skipped,
+            "coverage": plan.coverage.as_ref().map(coverage_json),
+            "path_length_m": plan.path.length_m,
+            "warnings": warnings_json(&plan.warnings),
         });
         println!("{answer:#}");
     } else {

@@ -41,7 +41,7 @@ pub fn run(args: &Args) -> CliResult {
     };
     let plan = || {
         let request: PlanRequestJson = parse_json(&bytes)?;
-        Planner::load(args.model.as_deref(), threads, 1).plan(&request)
+        Planner::load(args.model.as_deref(), threads, 1).plan(&request.into())
     };
     match plan() {
         Ok(plan) if args.pretty => println!("{}", serde_json::to_string_pretty(&plan)?),

@@ -3,8 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
-use prv::imaging::{DEFAULT_MAX_PIXELS, decode_image};
+use prv::imaging::{Camera, DEFAULT_MAX_PIXELS, decode_image};
 use prv::predict::{MAX_IMAGES, PhotoInput, PredictError, Predictor, model_bytes};
+
+use serde_json::json;
 
 use super::CliResult;
 use super::camera_flag::CameraFlag;
@@ -17,9 +19,10 @@ pub struct Args {
     /// Photos, PNG or JPEG; best are one from the top and two from the sides.
     #[arg(required = true, num_args = 1..=MAX_IMAGES)]
     images: Vec<PathBuf>,
-    /// The camera's intrinsics: d435, or fx,fy,cx,cy[,k1,k2,p1,p2,k3] in pixels for the photos' own size.
-    #[arg(long, env = "PRV_CAMERA", default_value = "d435", allow_hyphen_values = true)]
-    camera: CameraFlag,
+    /// The camera's intrinsics: d435, or fx,fy,cx,cy[,k1,k2,p1,p2,k3] in pixels for the photos' own size. A
+    /// D435 with a warning when left out, as in a request to the service.
+    #[arg(long, env = "PRV_CAMERA", allow_hyphen_values = true)]
+    camera: Option<CameraFlag>,
     /// Distance from the camera to the object's centre, metres.
     #[arg(long, env = "PRV_DISTANCE", default_value_t = 0.3, allow_hyphen_values = true)]
     distance: f64,
@@ -53,9 +56,14 @@ pub fn run(args: &Args) -> CliResult {
     };
     let prediction = prediction.map_err(|error| name_photo(error, &args.images))?;
     let info = predictor.info();
+    let assumed = "no camera given: a RealSense D435's colour camera (1280x720, fx 915.607) is assumed";
+    let warnings: Vec<(&str, &str)> =
+        (args.camera.is_none() && !args.crops).then_some(("default_camera", assumed)).into_iter().collect();
+    warnings.iter().for_each(|(_, message)| eprintln!("warning: {message}"));
     if args.json {
-        let answer = serde_json::json!({
+        let mut answer = json!({
             "raw": prediction.raw,
+            "predicted": prediction.rounded,
             "view_count": prediction.rounded,
             "label_range": [prediction.label_min, prediction.label_max],
             "model": {
@@ -63,6 +71,8 @@ pub fn run(args: &Args) -> CliResult {
                 "held_out_l1": info.held_out_l1, "best_constant_l1": info.best_constant_l1,
             },
         });
+        answer["warnings"] =
+            warnings.iter().map(|(code, message)| json!({"code": code, "message": message})).collect();
         println!("{answer:#}");
     } else {
         println!("{} views ({:.2})", prediction.rounded, prediction.raw);
@@ -80,7 +90,10 @@ fn decode(path: &Path) -> Result<RgbaImage, String> {
 }
 
 fn photo(image: RgbaImage, args: &Args) -> PhotoInput {
-    let camera = args.camera.for_size(image.width(), image.height());
+    let camera = match args.camera {
+        Some(camera) => camera.for_size(image.width(), image.height()),
+        None => Camera::REALSENSE_D435,
+    };
     PhotoInput::looking_at_center(image, camera, args.distance)
 }
 

@@ -1,5 +1,6 @@
 //! `prv robots`: the built-in arms, their limits and where the numbers come from.
 
+use prv::api::robot_details;
 use prv::robot::RobotModel;
 
 use super::CliResult;
@@ -10,7 +11,7 @@ pub struct Args {
     /// Only this robot.
     #[arg(env = "PRV_ROBOT")]
     model: Option<String>,
-    /// Print JSON.
+    /// Print JSON: under `robots` what GET /v1/robots/{model} answers for each.
     #[arg(long, env = "PRV_JSON")]
     json: bool,
 }
@@ -22,36 +23,12 @@ pub fn run(args: &Args) -> CliResult {
         None => RobotModel::names().into_iter().map(RobotModel::named).collect::<Result<Vec<_>, _>>()?,
     };
     if args.json {
-        let list: Vec<_> = robots.iter().map(json).collect();
+        let list: Vec<_> = robots.iter().map(robot_details).collect();
         println!("{:#}", serde_json::json!({ "robots": list }));
     } else {
         robots.iter().for_each(print);
     }
     Ok(())
-}
-
-fn json(robot: &RobotModel) -> serde_json::Value {
-    let joints: Vec<_> = robot
-        .joints
-        .iter()
-        .map(|joint| {
-            serde_json::json!({
-                "name": joint.name,
-                "lower_rad": joint.lower_rad,
-                "upper_rad": joint.upper_rad,
-                "max_speed_rad_per_s": joint.max_speed_rad_per_s,
-                "max_acceleration_rad_per_s2": joint.max_acceleration_rad_per_s2,
-            })
-        })
-        .collect();
-    serde_json::json!({
-        "name": robot.name,
-        "base_frame": robot.base_frame,
-        "flange_frame": robot.flange_frame,
-        "joints": joints,
-        "solver": robot.solver().name(),
-        "sources": robot.sources.iter().map(|s| serde_json::json!({"group": s.group.name(), "source": s.text})).collect::<Vec<_>>(),
-    })
 }
 
 fn print(robot: &RobotModel) {

@@ -57,9 +57,17 @@ pub enum MotionError {
         expected: usize,
     },
     /// The trajectory would be too long.
-    #[error("the trajectory would have more than {most} points: raise sample_period or speed_scale")]
+    #[error("the motion takes {duration_s:.1} s, more than {most} points at one every {sample_period_s} s")]
     TooManyPoints {
         /// Most points.
         most: usize,
+        /// Time in motion, rests left out, seconds.
+        duration_s: f64,
+        /// The period asked for, seconds.
+        sample_period_s: f64,
+        /// The share of the speed limits asked for.
+        speed_scale: f64,
+        /// The least period that would do, seconds; `None` where none does.
+        least_period_s: Option<f64>,
     },
 }

@@ -4,6 +4,7 @@ use super::along_path::AlongPath;
 use super::error::MotionError;
 use super::joints::{Joints, difference, joints_from};
 use super::plan::TrajectoryPoint;
+use super::point_count::{check, samples};
 use super::request::Timing;
 use super::resolve::Stop;
 use super::rounded::rounded;
@@ -12,9 +13,6 @@ use super::scene::Scene;
 use super::sweep::Sweeper;
 use super::trapezoid::Trapezoid;
 use crate::robot::Joint;
-
-/// Most points of a trajectory.
-pub const MOST_POINTS: usize = 1_000_000;
 
 /// A motion from rest to rest.
 enum Run {
@@ -117,9 +115,9 @@ pub(crate) fn timed(
     if let (Some(start), false) = (start, stops.is_empty()) {
         recorder.rest(start, None);
     }
-    for (i, stop) in stops.iter().enumerate() {
+    let runs = |(i, stop): (usize, &Stop)| {
         let relief_m = if i == 0 { first_relief_m } else { 0.0 };
-        let runs = match stop.waypoints.as_slice() {
+        match stop.waypoints.as_slice() {
             [] => Vec::new(),
             [from, to] => vec![bounds.straight(from, to)],
             waypoints if bounds.jerk.is_some() => {
@@ -134,9 +132,14 @@ pub(crate) fn timed(
                 .into_iter()
                 .map(|pieces| Run::Along(AlongPath::new(pieces, &bounds.speed, &bounds.acceleration)))
                 .collect(),
-        };
-        for run in &runs {
-            recorder.record(run, timing.sample_period_s)?;
+        }
+    };
+    let legs: Vec<Vec<Run>> = stops.iter().enumerate().map(runs).collect();
+    let durations_s: Vec<f64> = legs.iter().flatten().map(Run::duration_s).collect();
+    check(&durations_s, stops.len(), timing)?;
+    for (stop, runs) in stops.iter().zip(&legs) {
+        for run in runs {
+            recorder.record(run, timing.sample_period_s);
         }
         recorder.arrive(&stop.joints, stop.view);
         arrivals_s.push(recorder.now_s);
@@ -173,12 +176,9 @@ impl Recorder {
     }
 
     /// Samples after the beginning of `run`, evenly, its end included.
-    fn record(&mut self, run: &Run, period_s: f64) -> Result<(), MotionError> {
+    fn record(&mut self, run: &Run, period_s: f64) {
         let duration = run.duration_s();
-        let count = (duration / period_s).ceil().max(1.0);
-        if count + self.points.len() as f64 > MOST_POINTS as f64 {
-            return Err(MotionError::TooManyPoints { most: MOST_POINTS });
-        }
+        let count = samples(duration, period_s);
         let begin_s = self.now_s;
         for i in 1..=count as usize {
             let t = duration * i as f64 / count;
@@ -190,7 +190,6 @@ impl Recorder {
                 self.push(&q, &v, &a, None);
             }
         }
-        Ok(())
     }
 
     /// Marks the last point as the arrival at a view; the first point of all if there is none yet.

@@ -11,6 +11,7 @@ mod check;
 mod error;
 mod free_path;
 mod hand_eye;
+mod keep_out;
 mod make_plan;
 mod photos;
 mod predict_count;

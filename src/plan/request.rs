@@ -126,6 +126,21 @@ impl PlanRequest {
 }
 
 impl Arm {
+    /// `model` with every default of a request: camera on the assumed mount, no start, level
+    /// horizons, nothing around but object and table.
+    pub fn new(model: RobotModel) -> Self {
+        Self {
+            model,
+            flange_from_camera: None,
+            start_rad: None,
+            roll: Roll::Fixed,
+            objective: Objective::default(),
+            unreachable_views: UnreachableViews::default(),
+            surroundings: Surroundings::default(),
+            timing: Timing::default(),
+        }
+    }
+
     /// Where the camera is assumed to sit: 0.05 m in front of the flange, looking along its z axis.
     pub fn assumed_mount() -> Pose {
         Pose::translation(0.0, 0.0, 0.05)

@@ -1,6 +1,6 @@
 //! What stands around the arm and hangs on its flange, and how its motion is timed.
 
-use super::{Arm, PlanError, PlanRequest, Warning, length};
+use super::{Arm, PlanError, PlanRequest, Warning, keep_out, length};
 use crate::motion::{Cell, CellObject, KeepOut, ObjectShape, Timing, default_camera_body, fixed_overlaps};
 use crate::robot::LinkShape;
 
@@ -73,13 +73,18 @@ pub(super) fn check(request: &PlanRequest, arm: &Arm) -> Result<Vec<Warning>, Pl
     }
     length("margin", around.margin_m, 0.0, LARGEST_MARGIN_M)?;
     check_timing(&arm.timing)?;
-    let overlaps = fixed_overlaps(&cell(request, arm));
+    let cell = cell(request, arm);
+    let over_object = match &cell.object {
+        Some(object) => keep_out::check(&around.keep_out, object),
+        None => Vec::new(),
+    };
+    let overlaps = fixed_overlaps(&cell);
     let warning = |(part, region): (String, String)| {
         let text =
             format!("{part}, which does not move, stands in the keep-out region {region}: not looked at");
         Warning::new("base_in_keep_out", text)
     };
-    Ok(overlaps.into_iter().map(warning).chain(assumed_jerk(arm)).collect())
+    Ok(over_object.into_iter().chain(overlaps.into_iter().map(warning)).chain(assumed_jerk(arm)).collect())
 }
 
 fn assumed_jerk(arm: &Arm) -> Option<Warning> {

@@ -105,8 +105,25 @@ fn joint_from_row(index: usize, row: &DhRow, warnings: &mut Vec<RobotWarning>) -
         name,
         continuous: false,
     };
-    check_joint(&joint)?;
+    check_joint(&joint).map_err(|error| match error {
+        RobotError::OutOfRange { field, value, least, most, hint, .. } => {
+            RobotError::DhRow { row: index, field: dh_member(field), value, least, most, hint }
+        }
+        other => other,
+    })?;
+    warnings.extend(RobotWarning::speed_in_degrees(&joint));
     Ok(joint)
+}
+
+/// What a request calls a joint's limit.
+fn dh_member(field: &'static str) -> &'static str {
+    match field {
+        "lower limit" => "min",
+        "upper limit" => "max",
+        "speed limit" => "max_speed",
+        "acceleration limit" => "max_acceleration",
+        other => other,
+    }
 }
 
 /// Bounds of jerks taken as meant, rad/s3.
@@ -123,7 +140,8 @@ pub(super) fn check_joint(joint: &Joint) -> Result<(), RobotError> {
     }
     // Below or at the lower limit there is no room to move; NaN fails the comparison too.
     if !(joint.upper_rad > joint.lower_rad && joint.upper_rad <= WIDEST_RAD) {
-        return refuse("upper limit", joint.upper_rad, joint.lower_rad, WIDEST_RAD, "");
+        let hint = if joint.upper_rad > WIDEST_RAD { DEGREES } else { "" };
+        return refuse("upper limit", joint.upper_rad, joint.lower_rad, WIDEST_RAD, hint);
     }
     for (field, value) in [
         ("speed limit", joint.max_speed_rad_per_s),

@@ -102,20 +102,13 @@ fn turn(scaled_axis: Vector) -> Pose {
 
 fn check_row(index: usize, row: &DhRow) -> Result<(), RobotError> {
     let lengths = [("a", row.a_m), ("d", row.d_m)];
-    let angles = [("alpha", row.alpha_rad), ("theta_offset", row.theta_offset_rad)];
+    let angles = [("alpha", row.alpha_rad), ("theta", row.theta_offset_rad)];
     let check = |(field, value): (&'static str, f64), bound: f64, hint| {
         // A NaN is not within any range.
         if (-bound..=bound).contains(&value) {
             return Ok(());
         }
-        Err(RobotError::OutOfRange {
-            joint: format!("DH row {}", index + 1),
-            field,
-            value,
-            least: -bound,
-            most: bound,
-            hint,
-        })
+        Err(RobotError::DhRow { row: index, field, value, least: -bound, most: bound, hint })
     };
     lengths.into_iter().try_for_each(|l| check(l, LONGEST_M, "; millimetres given as metres?"))?;
     angles.into_iter().try_for_each(|a| check(a, std::f64::consts::TAU, "; degrees given as radians?"))
@@ -130,11 +123,11 @@ mod tests {
         let refused = |row: DhRow| {
             chain_from_dh(&[row], DhConvention::Standard, &Pose::identity()).unwrap_err().to_string()
         };
-        assert!(refused(DhRow::new(-425.0, 0.0, 0.0, 0.0)).contains("DH row 1: a is -425"));
+        assert!(refused(DhRow::new(-425.0, 0.0, 0.0, 0.0)).contains("dh[0].a is -425"));
         assert!(refused(DhRow::new(0.0, 0.0, 162.5, 0.0)).contains("millimetres"));
         assert!(refused(DhRow::new(0.0, 90.0, 0.0, 0.0)).contains("degrees"));
-        assert!(refused(DhRow::new(0.0, 0.0, f64::NAN, 0.0)).contains("d is NaN"));
-        assert!(refused(DhRow::new(0.0, 0.0, 0.0, f64::NEG_INFINITY)).contains("theta_offset"));
+        assert!(refused(DhRow::new(0.0, 0.0, f64::NAN, 0.0)).contains("dh[0].d is NaN"));
+        assert!(refused(DhRow::new(0.0, 0.0, 0.0, f64::NEG_INFINITY)).contains("dh[0].theta is -inf"));
     }
 
     #[test]

@@ -37,6 +37,22 @@ pub enum RobotError {
         /// What may have gone wrong, starting with a separator; or empty.
         hint: &'static str,
     },
+    /// A number of a DH table that is NaN, infinite or out of its bounds.
+    #[error("dh[{row}].{field} is {value}, must be within [{least}, {most}]{hint}")]
+    DhRow {
+        /// Index of the row.
+        row: usize,
+        /// The member of it, as in a request.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// Smallest allowed value.
+        least: f64,
+        /// Largest allowed value.
+        most: f64,
+        /// What may have gone wrong, starting with a separator; or empty.
+        hint: &'static str,
+    },
     /// No joint of the robot has this name.
     #[error("the robot has no joint {name:?}; its joints: {known}")]
     UnknownJoint {
@@ -68,6 +84,8 @@ pub enum RobotError {
     /// A joint state beyond a joint's limit.
     #[error("{joint} is at {value_rad} rad, beyond its limit {bound_rad} rad")]
     BeyondLimit {
+        /// Index of the joint.
+        index: usize,
         /// The joint.
         joint: String,
         /// Its value, radians.

@@ -32,11 +32,12 @@ pub fn clamp_start(joints: &[Joint], start_rad: &[f64]) -> Result<(Vec<f64>, Vec
     }
     let mut clamped = Vec::new();
     let mut state = Vec::with_capacity(joints.len());
-    for (joint, &given_rad) in joints.iter().zip(start_rad) {
+    for (index, (joint, &given_rad)) in joints.iter().zip(start_rad).enumerate() {
         let used_rad = given_rad.max(joint.lower_rad).min(joint.upper_rad);
         if given_rad.is_nan() || (given_rad - used_rad).abs() > START_TOLERANCE_RAD {
             let bound_rad = if given_rad < joint.lower_rad { joint.lower_rad } else { joint.upper_rad };
             return Err(RobotError::BeyondLimit {
+                index,
                 joint: joint.name.clone(),
                 value_rad: given_rad,
                 bound_rad,
@@ -90,7 +91,12 @@ mod tests {
         let error = clamp_start(&ur5e(), &[0.0, 0.0, -3.2, 0.0, 0.0, 0.0]).unwrap_err();
         assert_eq!(
             error,
-            RobotError::BeyondLimit { joint: "elbow_joint".into(), value_rad: -3.2, bound_rad: -PI }
+            RobotError::BeyondLimit {
+                index: 2,
+                joint: "elbow_joint".into(),
+                value_rad: -3.2,
+                bound_rad: -PI
+            }
         );
     }
 

@@ -75,12 +75,17 @@ fn replace(
         if (least..=most).contains(&value) {
             return Ok(value);
         }
-        Err(RobotError::Limit {
-            joint: name.clone(),
-            field,
-            value,
-            bound: format!("within [{least}, {most}]"),
-        })
+        let bound = match field {
+            "min" | "max" if value.is_finite() && value.abs() > WIDEST_RAD => format!(
+                "within [{least:.4}, {most:.4}] rad (degrees? {value} degrees are {:.4} rad)",
+                value.to_radians()
+            ),
+            "min" | "max" => format!("within [{least:.4}, {most:.4}] rad"),
+            "max_speed" => format!("within [{least}, {most}] rad/s"),
+            "max_acceleration" => format!("within [{least}, {most}] rad/s2"),
+            _ => format!("within [{least}, {most}] rad/s3"),
+        };
+        Err(RobotError::Limit { joint: name.clone(), field, value, bound })
     };
     let (own_lower, own_upper) = (joint.lower_rad, joint.upper_rad);
     let range = |own: f64| (-WIDEST_RAD.max(own.abs()), WIDEST_RAD.max(own.abs()));
@@ -93,13 +98,14 @@ fn replace(
     if !(joint.lower_rad < joint.upper_rad) {
         // The member that was given is the one to blame.
         let (field, value, bound) = match limits.upper_rad {
-            Some(upper) => ("max", upper, format!("above min, {} rad", joint.lower_rad)),
-            None => ("min", joint.lower_rad, format!("below max, {} rad", joint.upper_rad)),
+            Some(upper) => ("max", upper, format!("above min, {:.4} rad", joint.lower_rad)),
+            None => ("min", joint.lower_rad, format!("below max, {:.4} rad", joint.upper_rad)),
         };
         return Err(RobotError::Limit { joint: name.clone(), field, value, bound });
     }
     if let Some(speed) = limits.max_speed_rad_per_s {
         joint.max_speed_rad_per_s = within("max_speed", speed, SPEED)?;
+        warnings.extend(RobotWarning::speed_in_degrees(joint));
     }
     if let Some(acceleration) = limits.max_acceleration_rad_per_s2 {
         joint.max_acceleration_rad_per_s2 = within("max_acceleration", acceleration, ACCELERATION)?;
@@ -148,6 +154,17 @@ mod tests {
             limited("elbow_joint", JointLimits { upper_rad: Some(5.0), ..JointLimits::default() }).unwrap();
         assert_eq!(robot.warnings[0].code, "limit_widened");
         assert!(robot.warnings[0].message.contains("elbow_joint") && robot.warnings[0].message.contains('5'));
+    }
+
+    #[test]
+    fn a_speed_that_must_be_in_degrees_gets_a_warning() {
+        let robot = limited(
+            "elbow_joint",
+            JointLimits { max_speed_rad_per_s: Some(180.0), ..JointLimits::default() },
+        );
+        let warnings = robot.unwrap().warnings;
+        assert_eq!(warnings[0].code, "speed_in_degrees");
+        assert!(warnings[0].message.contains("180 deg/s are 3.1416 rad/s"), "{}", warnings[0]);
     }
 
     #[test]

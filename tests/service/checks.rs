@@ -113,7 +113,7 @@ const TAMPERINGS: [Tampering; 22] = [
     }),
     ("wrong_joints", |_, plan| plan["trajectory"]["joint_names"].as_array_mut().unwrap().swap(0, 1)),
     ("wrong_start", |request, _| request["start"] = json!([0.0, -1.6, 1.6, -1.6, -1.57, 0.0])),
-    ("not_proven", |_, plan| points(plan).iter_mut().for_each(|p| p["velocities"][0] = json!(1e9))),
+    ("not_proven", |_, plan| points(plan).iter_mut().for_each(|p| p["velocities"][0] = json!(1e6))),
 ];
 
 #[tokio::test]
@@ -243,4 +243,49 @@ fn random_cells_are_counted_and_their_log_is_resumed() {
     let logged = std::fs::read_to_string(&log).unwrap();
     assert_eq!(run("100"), counts);
     assert_eq!(std::fs::read_to_string(&log).unwrap(), logged);
+}
+
+#[tokio::test]
+async fn numbers_beyond_any_arms_give_no_verdict_with_holes() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let request = with(cell(), json!({"view_count": 3}));
+    let plan = server.post_json("/v1/plans", &request).await;
+    for (member, value, bound) in [
+        ("positions", json!(1e308), "within +-10000 rad"),
+        ("velocities", json!(-1e300), "within +-1000000 rad/s"),
+        ("accelerations", json!(10_000_000_000i64), "within +-1000000000 rad/s2"),
+    ] {
+        let mut changed = plan.clone();
+        points(&mut changed)[3][member][2] = value.clone();
+        let refused =
+            problem(server.post("/v1/checks", &json!({"request": request, "plan": changed})).await).await;
+        assert_eq!(refused["code"], "out_of_range", "{refused}");
+        assert_eq!(refused["field"], format!("plan.trajectory.points[3].{member}[2]"));
+        assert_eq!((&refused["value"], &refused["bound"]), (&value, &json!(bound)));
+    }
+    // The largest numbers that are judged, as close in time as they come.
+    let mut wild = plan;
+    for (index, point) in points(&mut wild).iter_mut().enumerate() {
+        let sign = if index % 2 == 0 { 1.0 } else { -1.0 };
+        for (member, most) in [("positions", 1e4), ("velocities", 1e6), ("accelerations", 1e9)] {
+            point[member] = json!(vec![sign * most; 6]);
+        }
+        point["time_from_start"] = json!(index as f64 * 5e-324);
+    }
+    let wild_request = with(request, json!({"timing": {"jerk_limited": true}}));
+    for step in [5e-324, 1.1e-9] {
+        for (index, point) in points(&mut wild).iter_mut().enumerate() {
+            point["time_from_start"] = json!(index as f64 * step);
+        }
+        let verdict = server.post_json("/v1/checks", &json!({"request": wild_request, "plan": wild})).await;
+        assert_eq!(verdict["sound"], false);
+        for share in ["largest_speed_share", "largest_acceleration_share", "largest_jerk_share"] {
+            let share = verdict["checked"][share].as_f64().unwrap();
+            assert!((0.0..=1e9).contains(&share), "{share}");
+        }
+        for violation in verdict["violations"].as_array().unwrap() {
+            assert!(violation["message"].as_str().unwrap().len() < 200, "{violation}");
+        }
+    }
 }

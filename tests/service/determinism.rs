@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::harness::{Server, cell, with, without_timings};
+use crate::harness::{Server, cell, problem, with, without_timings};
 
 #[tokio::test]
 async fn the_same_request_gives_the_same_bytes_here_and_elsewhere() {
@@ -29,4 +29,82 @@ async fn the_same_request_gives_the_same_bytes_here_and_elsewhere() {
     assert_eq!(parse(&a).to_string(), parse(&d).to_string());
     let different = server.post_json("/v1/plans", &with(request, json!({"view_count": 13}))).await;
     assert_ne!(different["id"], parse(&a)["id"]);
+}
+
+#[tokio::test]
+async fn requests_that_mean_the_same_have_one_id() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let robot = json!({"robot": {"model": "ur5e"}, "view_count": 2, "camera": cell()["camera"],
+        "object": {"center": [0.45, 0.0, 0.3], "radius": 0.1}});
+    let plan = server.post_json("/v1/plans", &robot).await;
+    for more in [
+        json!({"limits": {}}),
+        json!({"limits": {"elbow_joint": {}}}),
+        json!({"timing": {}}),
+        json!({"timing": {"speed_scale": 1, "settle": 3e-1, "sample_period": 0.040, "jerk_limited": false}}),
+        json!({"margin": 0.01, "keep_out": [], "tool": [], "objective": "distance", "unreachable_views": "replace"}),
+        json!({"robot": {"model": "UR5e"}, "roll": "fixed", "start": null, "camera_body": null}),
+        json!({"view_count": 2.0, "object": {"center": [0.45, -0.0, 3.0e-1], "radius": 0.10, "shape": "sphere"}}),
+        json!({"view_space": {"radius": 0.3, "min_elevation_deg": 5, "max_elevation_deg": 90.0}}),
+    ] {
+        let again = server.post("/v1/plans", &with(robot.clone(), more.clone())).await;
+        assert_eq!(again.status(), 200, "{more}");
+        let again: Value = again.json().await.unwrap();
+        assert_eq!(again, plan, "{more}");
+    }
+    // The two quaternions of one turn, and two words for one freedom.
+    let (mount, turned) = ([0.0, 0.0, 0.6, 0.8], [-0.0, 0.0, -0.6, -0.8]);
+    let mounted = |orientation: [f64; 4], roll: Value| {
+        with(
+            with(robot.clone(), roll),
+            json!({"flange_from_camera": {"position": [0, 0, 0.05], "orientation": orientation}}),
+        )
+    };
+    let sampled = server.post_json("/v1/plans", &mounted(mount, json!({"roll": "free"}))).await;
+    let roll = json!({"roll": "sampled", "roll_samples": 12});
+    assert_eq!(server.post_json("/v1/plans", &mounted(turned, roll)).await, sampled);
+    assert_ne!(sampled["id"], plan["id"]);
+    for other in [
+        json!({"limits": {"elbow_joint": {"max": 2.0}}}),
+        json!({"timing": {"settle": 0.5}}),
+        json!({"margin": 0.02}),
+        json!({"unreachable_views": "skip"}),
+        json!({"flange_from_camera": {"position": [0, 0, 0.05], "orientation": [0, 0, 0, 1]}}),
+    ] {
+        let different = server.post_json("/v1/plans", &with(robot.clone(), other.clone())).await;
+        assert_ne!(different["id"], plan["id"], "{other}");
+    }
+}
+
+#[tokio::test]
+async fn words_about_an_arm_are_refused_without_one_unless_they_say_nothing() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let bare = server.post_json("/v1/plans", &json!({"view_count": 3})).await;
+    let nothing = json!({"view_count": 3, "roll": "fixed", "limits": {}, "timing": {"settle": 0.3}, "margin": 0.01,
+        "keep_out": [], "tool": [], "objective": "distance", "unreachable_views": "replace"});
+    assert_eq!(server.post_json("/v1/plans", &nothing).await, bare);
+    for (field, value) in [
+        ("limits", json!({"elbow_joint": {"max": 1.0}})),
+        ("flange_from_camera", json!({"position": [0, 0, 0.05], "orientation": [0, 0, 0, 1]})),
+        ("start", json!([0.5, 0.5])),
+        ("roll", json!("free")),
+        ("objective", json!("time")),
+        ("keep_out", json!([{"name": "post", "sphere": {"center": [1.5, 0.5, 0.5], "radius": 0.5}}])),
+        ("camera_body", json!([])),
+        ("tool", json!([{"sphere": {"center": [0.5, 0.5, 0.5], "radius": 0.5}}])),
+        ("margin", json!(0.02)),
+        ("timing", json!({"settle": 0.5, "speed_scale": 0.5, "sample_period": 0.04, "jerk_limited": false})),
+        ("unreachable_views", json!("skip")),
+    ] {
+        let refused =
+            problem(server.post("/v1/plans", &with(json!({"view_count": 3}), json!({field: value}))).await)
+                .await;
+        assert_eq!(
+            (&refused["code"], &refused["field"]),
+            (&json!("robot_missing"), &json!(field)),
+            "{refused}"
+        );
+    }
 }

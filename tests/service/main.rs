@@ -1,6 +1,7 @@
 //! The service as its users meet it: a real process on a free port. One file a scenario.
 
 mod adapted_views;
+mod bad_requests;
 mod cancel;
 mod capture;
 mod cell_bounds;

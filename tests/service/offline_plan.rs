@@ -29,5 +29,5 @@ fn a_refused_request_prints_its_problem_and_fails() {
     assert_eq!(output.status.code(), Some(1));
     let text = String::from_utf8(output.stderr).unwrap();
     let problem: Value = serde_json::from_str(text.trim().strip_prefix("prv: ").unwrap()).unwrap();
-    assert_eq!((&problem["field"], &problem["value"]), (&json!("view_count"), &json!(500.0)));
+    assert_eq!((&problem["field"], &problem["value"]), (&json!("view_count"), &json!(500)));
 }

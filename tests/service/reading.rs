@@ -21,8 +21,8 @@ async fn view_sets_robots_and_objects_can_be_read() {
     for (query, field) in [
         ("0", "n"),
         ("201", "n"),
-        ("5?min_elevation_deg=-100", "view_space.min_elevation_deg"),
-        ("5?radius=-1", "view_space.radius"),
+        ("5?min_elevation_deg=-100", "min_elevation_deg"),
+        ("5?radius=-1", "radius"),
         ("5?radius=abc", "radius"),
         ("5?colour=red", "colour"),
     ] {

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::harness::{Server, cell, problem, with};
+use crate::harness::{PRV, Server, cell, problem, with};
 
 #[tokio::test]
 async fn limits_of_the_request_bind_the_plan() {
@@ -64,4 +64,11 @@ async fn every_robot_documents_its_numbers_and_their_sources() {
             ["kinematics", "position_limits", "speed_limits", "acceleration_limits", "link_shapes"];
         assert_eq!(groups, expected);
     }
+    let printed = std::process::Command::new(PRV).args(["robots", "fr3", "--json"]).output().unwrap();
+    let printed: serde_json::Value = serde_json::from_slice(&printed.stdout).unwrap();
+    let fr3 = server.get_json("/v1/robots/fr3").await;
+    assert_eq!(printed["robots"], json!([fr3]));
+    // What is not modelled as the maker has it is said.
+    let speeds = fr3["sources"][2]["source"].as_str().unwrap();
+    assert!(speeds.contains("falls towards the ends"), "{speeds}");
 }

@@ -69,7 +69,13 @@ async fn a_mesh_that_is_not_attached_is_named_in_the_plans_warnings() {
     let file = "diAwLjEgMC4xIDAKdiAtMC4xIC0wLjEgMC4xCnYgMC4xIC0wLjEgMAp2IC0wLjEgMC4xIDAuMQo=";
     let plan = server.post_json("/v1/plans", &request(json!({"meshes": {"foot.stl": file}}))).await;
     assert!(warned(&plan, "mesh_replaced"), "{}", plan["warnings"]);
+    let astray = request(json!({"meshes": {"foot.stl": file, "leg.stl": file}}));
+    let plan = server.post_json("/v1/plans", &astray).await;
+    let unused = plan["warnings"].as_array().unwrap().iter().find(|w| w["code"] == "mesh_unused").unwrap();
+    let message = unused["message"].as_str().unwrap();
+    assert!(message.contains("leg.stl; the URDF's names are foot.stl"), "{message}");
     let broken = request(json!({"meshes": {"foot.stl": "aGVsbG8="}}));
     let refused = crate::harness::problem(server.post("/v1/plans", &broken).await).await;
     assert_eq!((&refused["status"], &refused["code"]), (&json!(422), &json!("urdf")), "{refused}");
+    assert_eq!(refused["field"], "robot.meshes.foot.stl");
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::harness::{Server, cell, with};
+use crate::harness::{Server, cell, problem, with};
 
 fn planned(plan: &Value) -> usize {
     plan["order"].as_array().unwrap().len()
@@ -109,4 +109,53 @@ async fn a_motion_of_bounded_jerk_is_longer_and_keeps_its_bounds() {
         plan["trajectory"]["points"].as_array().unwrap().last().unwrap()["time_from_start"].as_f64()
     };
     assert!(seconds(&plan) > seconds(&without));
+}
+
+#[tokio::test]
+async fn a_region_over_the_object_is_told_and_regions_of_one_name_are_told_apart() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let warned = |plan: &Value, text: &str| {
+        let warnings = plan["warnings"].as_array().unwrap();
+        let told = |w: &&Value| w["code"] == "object_in_keep_out";
+        warnings.iter().filter(told).any(|w| w["message"].as_str().unwrap().contains(text))
+    };
+    let ball =
+        |x: f64, name: &str| json!({"name": name, "sphere": {"center": [x, 0.0, 0.15], "radius": 0.28}});
+    let request = |regions: Value| {
+        with(cell(), json!({"view_count": 4, "keep_out": regions, "unreachable_views": "skip"}))
+    };
+    let plan = server.post_json("/v1/plans", &request(json!([ball(0.45, "hood")]))).await;
+    assert!(warned(&plan, "hood holds 100 % of the object, its centre included"), "{}", plan["warnings"]);
+    let plan = server.post_json("/v1/plans", &request(json!([ball(2.0, "wall")]))).await;
+    assert!(!warned(&plan, "wall"), "{}", plan["warnings"]);
+
+    let walls = json!([ball(0.45, "case"), ball(0.4, "case"), ball(2.0, "wall")]);
+    let plan = server.post_json("/v1/plans", &request(walls)).await;
+    let views = plan["views"].as_array().unwrap();
+    let parts = views.iter().filter_map(|view| view["reason"]["parts"].as_array()).flatten();
+    let named: Vec<&str> = parts.filter_map(Value::as_str).filter(|part| part.contains("case")).collect();
+    assert!(!named.is_empty() && named.iter().all(|name| name.starts_with("case (keep_out[")), "{named:?}");
+}
+
+#[tokio::test]
+async fn a_trajectory_of_too_many_points_is_refused_with_the_period_that_does() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let timed = |period: f64| {
+        let timing = json!({"speed_scale": 0.01, "sample_period": period});
+        with(cell(), json!({"view_count": 6, "timing": timing}))
+    };
+    let refused = problem(server.post("/v1/plans", &timed(0.001)).await).await;
+    assert_eq!(refused["code"], "trajectory_too_long", "{refused}");
+    assert_eq!((&refused["field"], &refused["value"]), (&json!("timing.sample_period"), &json!(0.001)));
+    let bound = refused["bound"].as_str().unwrap();
+    let least: f64 = bound.strip_prefix("at least ").unwrap().split(' ').next().unwrap().parse().unwrap();
+    let plan = server.post("/v1/plans", &timed(least)).await;
+    assert_eq!(plan.status(), 201, "{bound}");
+    let bytes = plan.bytes().await.unwrap();
+    assert!(bytes.len() < 30 << 20, "{}", bytes.len());
+    let plan: Value = serde_json::from_slice(&bytes).unwrap();
+    let points = plan["trajectory"]["points"].as_array().unwrap().len();
+    assert!((40_000..=50_000).contains(&points), "{points}");
 }

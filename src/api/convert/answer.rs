@@ -36,7 +36,8 @@ pub fn plan_answer(id: String, plan: Plan) -> PlanAnswer {
     }
 }
 
-fn coverage_json(report: &CoverageReport) -> CoverageReportJson {
+/// How well the views cover the band.
+pub fn coverage_json(report: &CoverageReport) -> CoverageReportJson {
     let figures = |coverage: &Coverage| CoverageJson {
         views: coverage.views as u32,
         separation_deg: coverage.separation_rad.to_degrees(),

@@ -2,6 +2,7 @@
 
 mod answer;
 mod camera;
+mod canonical;
 mod cell;
 mod check;
 mod images;
@@ -14,8 +15,9 @@ mod robot;
 mod robot_details;
 mod solid;
 
-pub use answer::{expected_views, plan_answer, timings_json, trajectory, warnings_json};
+pub use answer::{coverage_json, expected_views, plan_answer, timings_json, trajectory, warnings_json};
 pub use camera::{camera, camera_json};
+pub use canonical::{canonical, identity};
 pub use cell::{surroundings, timing};
 pub use check::{check_answer, claimed_plan};
 pub use images::{MAX_IMAGE_PIXELS, base64_bytes, images};

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{camera, images, limited_robot, object, pose, surroundings, timing};
+use super::{camera, canonical, images, limited_robot, object, pose, surroundings, timing};
 use crate::api::problem::Problem;
 use crate::api::wire::{
     InitialViewsJson, ObjectiveJson, PlanRequestJson, PredictionRequest, RollJson, UnreachableViewsJson,
@@ -81,25 +81,42 @@ fn roll(json: &PlanRequestJson) -> Result<Roll, Problem> {
     }
 }
 
+/// The first member that asks something of an arm, with its value. What says no more than its being left
+/// out would, such as a timing of defaults, may stand in a request without robot.
+fn needs_robot(json: &PlanRequestJson) -> Option<(&'static str, Value)> {
+    let stated = canonical(PlanRequestJson { images: None, ..json.clone() });
+    let members = serde_json::to_value(&stated).unwrap_or(Value::Null);
+    [
+        "limits",
+        "flange_from_camera",
+        "start",
+        "roll",
+        "objective",
+        "keep_out",
+        "camera_body",
+        "tool",
+        "margin",
+        "timing",
+        "roll_samples",
+        "unreachable_views",
+    ]
+    .into_iter()
+    .find_map(|name| {
+        let value = members.get(name).filter(|value| **value != "fixed")?;
+        Some((name, value.clone()))
+    })
+}
+
 fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
     let roll = roll(json)?;
     let Some(description) = &json.robot else {
-        for (field, given) in [
-            ("flange_from_camera", json.flange_from_camera.is_some()),
-            ("start", json.start.is_some()),
-            ("keep_out", !json.keep_out.is_empty()),
-            ("camera_body", json.camera_body.is_some()),
-            ("tool", !json.tool.is_empty()),
-            ("margin", json.margin.is_some()),
-            ("timing", json.timing.is_some()),
-            ("limits", json.limits.is_some()),
-            ("objective", json.objective == ObjectiveJson::Time),
-        ] {
-            if given {
-                return Err(Problem::field("robot_missing", field, "given", "left out without robot"));
+        return match needs_robot(json) {
+            Some((field, value)) => {
+                let bound = "left out without robot: it is about the arm";
+                Err(Problem::field("robot_missing", field, value, bound))
             }
-        }
-        return Ok(None);
+            None => Ok(None),
+        };
     };
     let mount = json.flange_from_camera.as_ref().map(|json| pose("flange_from_camera", json)).transpose()?;
     Ok(Some(Arm {

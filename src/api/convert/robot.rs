@@ -1,5 +1,9 @@
 //! Robots.
 
+use std::collections::HashMap;
+
+use serde_json::Value;
+
 use super::base64_bytes;
 use crate::api::problem::Problem;
 use crate::api::wire::{DhConventionJson, DhRowJson, RobotJson, RobotSummary};
@@ -8,11 +12,14 @@ use crate::robot::{DhConvention, DhRow, Meshes, RobotModel};
 /// The robot of a request.
 ///
 /// # Errors
-/// 422 unless exactly one description is given, and those of the description.
+/// 422 unless exactly one description is given, for members that belong to another one, and those of
+/// the description.
 pub fn robot(json: &RobotJson) -> Result<RobotModel, Problem> {
+    belongs(json)?;
     match (&json.model, &json.dh, &json.urdf) {
         (Some(name), None, None) => Ok(RobotModel::named(name)?),
         (None, Some(rows), None) => {
+            names_differ(rows)?;
             let rows: Vec<DhRow> = rows.iter().map(dh_row).collect();
             let convention = match json.convention {
                 DhConventionJson::Standard => DhConvention::Standard,
@@ -35,6 +42,44 @@ pub fn robot(json: &RobotJson) -> Result<RobotModel, Problem> {
             ))
         }
     }
+}
+
+/// Refuses members that the description given has no use for, rather than to ignore them.
+fn belongs(json: &RobotJson) -> Result<(), Problem> {
+    let refuse = |code: &str, field: &str, value: Value, owner: &str| {
+        Err(Problem::field(code, format!("robot.{field}"), value, format!("left out without robot.{owner}")))
+    };
+    if json.urdf.is_none() {
+        if let Some(link) = &json.base_link {
+            return refuse("urdf_missing", "base_link", link.clone().into(), "urdf");
+        }
+        if let Some(link) = &json.tip_link {
+            return refuse("urdf_missing", "tip_link", link.clone().into(), "urdf");
+        }
+        if let Some(meshes) = json.meshes.as_ref().filter(|meshes| !meshes.is_empty()) {
+            return refuse("urdf_missing", "meshes", format!("{} files", meshes.len()).into(), "urdf");
+        }
+    }
+    if json.dh.is_none() && json.convention == DhConventionJson::Modified {
+        return refuse("dh_missing", "convention", "modified".into(), "dh");
+    }
+    Ok(())
+}
+
+/// Refuses joints of one name: limits and trajectories go by names.
+fn names_differ(rows: &[DhRowJson]) -> Result<(), Problem> {
+    let mut bearers: HashMap<&str, usize> = HashMap::new();
+    for (index, name) in rows.iter().enumerate().filter_map(|(i, row)| Some((i, row.name.as_deref()?))) {
+        if let Some(earlier) = bearers.insert(name, index) {
+            return Err(Problem::field(
+                "duplicate_name",
+                format!("robot.dh[{index}].name"),
+                name,
+                format!("another name than robot.dh[{earlier}] has"),
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// The attached mesh files.

@@ -1,5 +1,7 @@
 //! Solids of the cell.
 
+use std::collections::HashMap;
+
 use super::pose;
 use crate::api::problem::Problem;
 use crate::api::wire::{BoxJson, CapsuleJson, CylinderJson, KeepOutJson, PoseJson, SolidJson, SphereJson};
@@ -16,6 +18,8 @@ const LONGEST_NAME: usize = 100;
 /// # Errors
 /// 422 naming the member.
 pub fn keep_out(regions: &[KeepOutJson]) -> Result<Vec<KeepOut>, Problem> {
+    let mut bearers: HashMap<&str, usize> = HashMap::new();
+    regions.iter().for_each(|region| *bearers.entry(&region.name).or_default() += 1);
     let region = |(index, json): (usize, &KeepOutJson)| {
         let path = format!("keep_out[{index}]");
         let length = json.name.trim().chars().count();
@@ -29,7 +33,12 @@ pub fn keep_out(regions: &[KeepOutJson]) -> Result<Vec<KeepOut>, Problem> {
             capsule: json.capsule.as_ref(),
             cylinder: json.cylinder.as_ref(),
         };
-        Ok(KeepOut { name: json.name.clone(), shape_in_base: solid.shape(&path, true)? })
+        // An obstacle of several solids may have one name; a reason names the one it is about.
+        let name = match bearers.get(json.name.as_str()) {
+            Some(2..) => format!("{} ({path})", json.name),
+            _ => json.name.clone(),
+        };
+        Ok(KeepOut { name, shape_in_base: solid.shape(&path, true)? })
     };
     regions.iter().enumerate().map(region).collect()
 }

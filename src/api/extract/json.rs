@@ -7,6 +7,7 @@ use serde_json::Value;
 use serde_json::error::Category;
 
 use super::BodyBytes;
+use super::member::wrong_member;
 use crate::api::problem::Problem;
 
 /// A body of type `application/json` that parses as `T`.
@@ -41,72 +42,43 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for JsonBody<T> {
 pub fn parse_json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Problem> {
     // A list of values would be read as a request's members in order.
     if bytes.trim_ascii_start().first() == Some(&b'[') {
-        let status = StatusCode::UNPROCESSABLE_ENTITY;
-        let problem = Problem::new(status, "invalid_member", "the body is a list, not an object");
-        return Err(problem.at("body", lookup(bytes, ""), "an object"));
+        let body = serde_json::from_slice::<Value>(bytes).unwrap_or(Value::Null);
+        return Err(Problem::field("invalid_member", "body", body, "an object"));
     }
     let mut reader = serde_json::Deserializer::from_slice(bytes);
-    let parsed: T = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
-        let path = error.path().to_string();
-        explain(bytes, path, error.inner())
-    })?;
-    reader.end().map_err(|error| explain(bytes, ".".to_owned(), &error))?;
+    let parsed: T = serde_path_to_error::deserialize(&mut reader)
+        .map_err(|error| explain::<T>(bytes, error.path().to_string(), error.inner()))?;
+    reader.end().map_err(|error| explain::<T>(bytes, ".".to_owned(), &error))?;
     Ok(parsed)
 }
 
-fn explain(bytes: &[u8], path: String, error: &serde_json::Error) -> Problem {
-    let path = if path == "." { "body".to_owned() } else { path };
-    match error.classify() {
-        Category::Data => wrong_member(bytes, path, error),
-        Category::Syntax | Category::Eof | Category::Io => {
-            let bound = if error.to_string().starts_with("number out of range") {
-                "a number within the range of a 64-bit float"
-            } else {
-                "valid JSON (which knows no NaN or Infinity)"
-            };
-            Problem::new(StatusCode::BAD_REQUEST, "malformed_json", format!("{path}: {error}")).at(
-                path,
-                token_at(bytes, error.line(), error.column()),
-                bound,
-            )
-        }
+fn explain<T: DeserializeOwned>(bytes: &[u8], path: String, error: &serde_json::Error) -> Problem {
+    let path = if matches!(path.as_str(), "." | "?") { "body".to_owned() } else { path };
+    // Some wrong members are syntax errors to the reader of bytes, but not to that of values.
+    match serde_json::from_slice::<Value>(bytes) {
+        Ok(document) => wrong_member::<T>(&document).unwrap_or_else(|| malformed(bytes, path, error)),
+        Err(_) => malformed(bytes, path, error),
     }
 }
 
-fn wrong_member(bytes: &[u8], path: String, error: &serde_json::Error) -> Problem {
+fn malformed(bytes: &[u8], path: String, error: &serde_json::Error) -> Problem {
     let message = error.to_string();
-    let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(head, _)| head).to_owned();
-    let quoted = || message.split('`').nth(1).unwrap_or("").to_owned();
-    let join = |name: String| if path == "body" { name } else { format!("{path}.{name}") };
-    let (field, value, bound) = if message.starts_with("missing field") {
-        (join(quoted()), Value::Null, "given".to_owned())
-    } else if message.starts_with("unknown field") {
-        let known = message.split_once(", ").map_or("", |(_, known)| known);
-        // The path of an unknown member ends with the member itself.
-        (path.clone(), lookup(bytes, &path), format!("left out: {known}"))
-    } else {
-        let bound = message.split_once("expected ").map_or(message.as_str(), |(_, bound)| bound).to_owned();
-        (path.clone(), lookup(bytes, &path), bound)
+    let reason = message.rsplit_once(" at line ").map_or(message.as_str(), |(head, _)| head);
+    let bound = match error.classify() {
+        Category::Eof => "a whole JSON document: it ends too early",
+        _ if reason.starts_with("number out of range") => "a number within the range of a 64-bit float",
+        _ if reason.starts_with("trailing characters") => "one JSON document with nothing behind it",
+        _ if reason.starts_with("trailing comma") => "JSON without a comma before a closing bracket",
+        _ if reason.starts_with("key must be") => "JSON with the names of members in double quotes",
+        _ => "valid JSON (which knows no NaN or Infinity)",
     };
-    let status = StatusCode::UNPROCESSABLE_ENTITY;
-    Problem::new(status, "invalid_member", format!("{field}: {message}")).at(field, value, bound)
-}
-
-/// The value at a path such as `object.center[2]`, null when there is none.
-fn lookup(bytes: &[u8], path: &str) -> Value {
-    let Ok(document) = serde_json::from_slice::<Value>(bytes) else { return Value::Null };
-    let mut found = &document;
-    for segment in path.split(['.', '[']).filter(|s| !s.is_empty() && *s != "body") {
-        let next = match segment.strip_suffix(']').and_then(|index| index.parse::<usize>().ok()) {
-            Some(index) => found.get(index),
-            None => found.get(segment),
-        };
-        match next {
-            Some(value) => found = value,
-            None => return Value::Null,
-        }
-    }
-    found.clone()
+    let (line, column) = (error.line(), error.column());
+    let text = format!("{path}: no JSON at line {line}, column {column}: {reason}");
+    let value = match error.classify() {
+        Category::Eof => "the end".to_owned(),
+        _ => token_at(bytes, line, column),
+    };
+    Problem::new(StatusCode::BAD_REQUEST, "malformed_json", text).at(path, value, bound)
 }
 
 /// The word around a position of the document, at most 40 bytes of it.
@@ -153,7 +125,7 @@ mod tests {
         assert_eq!((problem.status, problem.code.as_str()), (422, "invalid_member"));
         assert_eq!(problem.field.as_deref(), Some("object.center[2]"));
         assert_eq!(problem.value, Some("high".into()));
-        assert_eq!(problem.bound.as_deref(), Some("f64"));
+        assert_eq!(problem.bound.as_deref(), Some("a number"));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod body;
 mod json;
+mod member;
 mod parameters;
 
 pub use body::{BodyBytes, MAX_BODY_BYTES};

@@ -1,9 +1,11 @@
 //! Path and query parameters.
 
-use axum::extract::{FromRequestParts, Path, Query};
-use axum::http::StatusCode;
+use axum::extract::path::ErrorKind;
+use axum::extract::rejection::PathRejection;
+use axum::extract::{FromRequestParts, MatchedPath, Path, Query};
 use axum::http::request::Parts;
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 
 use crate::api::problem::Problem;
 
@@ -14,16 +16,32 @@ impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for PathPar
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
-        let path = parts.uri.path().to_owned();
         Path::<T>::from_request_parts(parts, state).await.map(|Path(value)| Self(value)).map_err(|error| {
-            let value = path.rsplit('/').next().unwrap_or("").to_owned();
-            Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid_path", error.body_text()).at(
-                "path",
-                value,
-                "a whole number",
-            )
+            let (name, value) = match &error {
+                PathRejection::FailedToDeserializePathParams(error) => match error.kind() {
+                    ErrorKind::ParseErrorAtKey { key, value, .. } => (key.clone(), value.clone()),
+                    ErrorKind::ParseErrorAtIndex { index, value, .. } => {
+                        (parameter_name(parts, *index), value.clone())
+                    }
+                    ErrorKind::ParseError { value, .. } => (parameter_name(parts, 0), value.clone()),
+                    ErrorKind::InvalidUtf8InPathParam { key } => {
+                        let bound = "percent-encoded UTF-8";
+                        return Problem::field("invalid_path", key.clone(), Value::Null, bound);
+                    }
+                    _ => ("path".to_owned(), parts.uri.path().to_owned()),
+                },
+                _ => ("path".to_owned(), parts.uri.path().to_owned()),
+            };
+            Problem::field("invalid_path", name, value, "a whole number of at least 0")
         })
     }
+}
+
+/// The name of a path's parameter by its index, for parsers that do not know it.
+fn parameter_name(parts: &Parts, index: usize) -> String {
+    let template = parts.extensions.get::<MatchedPath>().map_or("", MatchedPath::as_str);
+    let name = template.split('{').skip(1).nth(index).and_then(|rest| rest.split('}').next());
+    name.unwrap_or("path").to_owned()
 }
 
 /// Query parameters that parse as `T`.
@@ -44,10 +62,12 @@ impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for QueryPa
                 .unwrap_or(&query)
                 .to_owned();
             let bound = match text.split_once("expected ") {
-                Some((_, known)) if text.contains("unknown field") => format!("left out: expected {known}"),
+                Some((_, known)) if text.contains("unknown field") => {
+                    format!("left out: the parameters here are {}", known.trim_start_matches("one of "))
+                }
                 _ => "a number".to_owned(),
             };
-            Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "invalid_query", text).at(field, value, bound)
+            Problem::field("invalid_query", field, value, bound)
         })
     }
 }

@@ -3,6 +3,7 @@
 use axum::Json;
 use axum::extract::{FromRequest, Request, State};
 
+use super::refusals::BodyRefusals;
 use crate::api::checker::check_plan;
 use crate::api::extract::{JsonBody, parse_json};
 use crate::api::problem::{Problem, ProblemJson};
@@ -19,30 +20,36 @@ use crate::api::wire::{CheckAnswer, CheckedPlanJson, CreateCheck, PlanRequestJso
     post, path = "/v1/checks", tag = "plans", request_body = CreateCheck,
     responses(
         (status = 200, description = "The verdict", body = CheckAnswer),
+        BodyRefusals,
         (status = 404, description = "No such plan", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 422, description = "A member is refused: field, value and bound tell", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 503, description = "Overloaded", body = ProblemJson, content_type = "application/problem+json"),
     )
 )]
 pub async fn create(State(app): State<AppState>, request: Request) -> Result<Json<CheckAnswer>, Problem> {
     let admission = app.heavy.admit()?;
     let JsonBody(json) = JsonBody::<CreateCheck>::from_request(request, &app).await?;
     let plans = app.plans.clone();
-    let work = move || {
-        let (request, plan) = match (json.plan_id, json.request, json.plan) {
-            (Some(id), None, None) => stored(&plans, &id)?,
-            (None, Some(request), Some(plan)) => (request, plan),
-            (id, request, plan) => {
-                let given =
-                    [("plan_id", id.is_some()), ("request", request.is_some()), ("plan", plan.is_some())];
-                let names: Vec<&str> = given.iter().filter(|(_, g)| *g).map(|(name, _)| *name).collect();
-                let bound = "either plan_id, or request and plan";
-                return Err(Problem::field("check_source", "body", names.join(" and "), bound));
-            }
-        };
-        check_plan(request, plan)
+    let work = move || match (json.plan_id, json.request, json.plan) {
+        (Some(id), None, None) => {
+            let (request, plan) = stored(&plans, &id)?;
+            check_plan(request, plan)
+        }
+        (None, Some(request), Some(plan)) => check_plan(request, plan).map_err(in_pair),
+        (id, request, plan) => {
+            let given = [("plan_id", id.is_some()), ("request", request.is_some()), ("plan", plan.is_some())];
+            let names: Vec<&str> = given.iter().filter(|(_, g)| *g).map(|(name, _)| *name).collect();
+            let value = if names.is_empty() { "none of them".to_owned() } else { names.join(" and ") };
+            let bound = "either plan_id, or request and plan";
+            Err(Problem::field("check_source", "body", value, bound))
+        }
     };
     app.heavy.run(admission, work).await.map(Json)
+}
+
+/// The members of the request are those of `request` here.
+fn in_pair(problem: Problem) -> Problem {
+    problem.rename(
+        |field| if field.starts_with("plan.") { field.to_owned() } else { format!("request.{field}") },
+    )
 }
 
 fn stored(plans: &PlanStore, id: &str) -> Result<(PlanRequestJson, CheckedPlanJson), Problem> {

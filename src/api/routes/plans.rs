@@ -5,26 +5,25 @@ use axum::extract::{FromRequest, Request, State};
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::Response;
 
+use super::refusals::BodyRefusals;
 use super::{json_bytes, off_thread};
 use crate::api::extract::{JsonBody, PathParam};
+use crate::api::planner::ResolvedRequest;
 use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 use crate::api::wire::{PlanAnswer, PlanList, PlanRequestJson};
 
 /// Plan views, order and motion.
 ///
-/// The same request gives the same plan: it is computed once and stored under a hash of the
-/// request, the service's version and the model. 201 for a new plan, 200 for a stored one.
+/// The same request gives the same plan: it is computed once and stored under a hash of what the
+/// request means, the service's version and the model. Defaults that are spelt out, 1 for 1.0 or the
+/// order of members make no other request. 201 for a new plan, 200 for a stored one.
 #[utoipa::path(
     post, path = "/v1/plans", tag = "plans", request_body = PlanRequestJson,
     responses(
         (status = 201, description = "Computed and stored", body = PlanAnswer),
         (status = 200, description = "Stored before; the same bytes", body = PlanAnswer),
-        (status = 400, description = "No JSON", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 413, description = "Body over 32 MiB", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 415, description = "Not application/json", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 422, description = "A member is refused: field, value and bound tell", body = ProblemJson, content_type = "application/problem+json"),
-        (status = 503, description = "Overloaded, or images were given and there is no model", body = ProblemJson, content_type = "application/problem+json"),
+        BodyRefusals,
     )
 )]
 pub async fn create(State(app): State<AppState>, request: Request) -> Result<Response, Problem> {
@@ -32,14 +31,15 @@ pub async fn create(State(app): State<AppState>, request: Request) -> Result<Res
     let JsonBody(json) = JsonBody::<PlanRequestJson>::from_request(request, &app).await?;
     let (planner, plans) = (app.planner.clone(), app.plans.clone());
     let work = move || -> Result<(String, Vec<u8>, bool), Problem> {
-        let id = planner.plan_id(&json)?;
+        let request = ResolvedRequest::from(json);
+        let id = planner.plan_id(&request)?;
         if let Some(stored) = plans.answer(&id)? {
             return Ok((id, stored, false));
         }
-        let answer = planner.plan(&json)?;
+        let answer = planner.plan(&request)?;
         let encode = |e: serde_json::Error| Problem::internal(e.to_string());
         let bytes = serde_json::to_vec(&answer).map_err(encode)?;
-        let cell = serde_json::to_vec(&PlanRequestJson { images: None, ..json }).map_err(encode)?;
+        let cell = serde_json::to_vec(&request.without_images()).map_err(encode)?;
         let (stored, new) = plans.put(&id, bytes, &cell)?;
         Ok((id, stored, new))
     };

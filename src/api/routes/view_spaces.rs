@@ -52,14 +52,16 @@ pub async fn get(
 }
 
 fn view_space(n: u32, json: ViewSpaceJson) -> Result<ViewSpaceAnswer, Problem> {
-    let shell = convert::shell(&json)?;
+    // Here the members are parameters.
+    let named = |problem: Problem| problem.rename(|field| field.trim_start_matches("view_space.").to_owned());
+    let shell = convert::shell(&json).map_err(named)?;
     let space = ViewSpace { center_in_base: Point::origin(), radius_m: shell.radius_m, band: shell.band };
-    space.validate()?;
+    space.validate().map_err(|error| named(error.into()))?;
     let set = tammes(n as usize, space.band).map_err(|error| match error {
         ViewsError::Count { count, min, max } => {
             Problem::field("out_of_range", "n", count, format!("from {min} to {max}"))
         }
-        other => other.into(),
+        other => named(other.into()),
     })?;
     let view = |(id, direction): (usize, &crate::geometry::Direction)| {
         let (azimuth_rad, elevation_rad) = azimuth_elevation_from_direction(direction);

@@ -10,8 +10,10 @@ use utoipa::ToSchema;
 #[schema(as = Camera, example = json!({"width": 1280, "height": 720, "fx": 915.607, "fy": 913.327, "cx": 647.145, "cy": 372.515, "distortion": [0.0, 0.0, 0.0, 0.0, 0.0]}))]
 pub struct CameraJson {
     /// Image width in pixels, 1 to 16384.
+    #[serde(deserialize_with = "super::whole::whole")]
     pub width: u32,
     /// Image height in pixels, 1 to 16384.
+    #[serde(deserialize_with = "super::whole::whole")]
     pub height: u32,
     /// Focal length along x in pixels.
     pub fx: f64,

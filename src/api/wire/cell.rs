@@ -29,7 +29,8 @@ pub struct SolidJson {
 #[serde(deny_unknown_fields)]
 #[schema(as = KeepOut, example = json!({"name": "monitor", "box": {"center": [0.2, -0.6, 0.3], "size": [0.6, 0.1, 0.4]}}))]
 pub struct KeepOutJson {
-    /// Named in the reasons of skipped views; 1 to 100 characters.
+    /// Named in the reasons of skipped views; 1 to 100 characters. Several solids may share a name: reasons
+    /// tell them apart by their place, as in `case (keep_out[1])`.
     pub name: String,
     /// A box.
     #[serde(default, rename = "box", skip_serializing_if = "Option::is_none")]
@@ -103,19 +104,19 @@ fn upright() -> [f64; 4] {
     [0.0, 0.0, 0.0, 1.0]
 }
 
-/// How the motion is timed.
+/// How the motion is timed: how fast, how long it rests, how densely it is sampled, how smooth it is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schema(as = Timing, example = json!({"speed_scale": 0.5, "settle": 0.3}))]
 pub struct TimingJson {
-    /// Share of the joints' speed limits that is used, 0.01 to 1; accelerations are scaled by its
-    /// square
-    /// (and jerks by its cube), so that the motion is the same, slower. 1 when left out.
+    /// Share of the joints' speed limits that is used, 0.01 to 1. Accelerations are scaled by its square
+    /// and jerks by its cube, so that the motion is the same, slower. 1 when left out.
     pub speed_scale: f64,
     /// How long the arm stands still at each view, seconds, 0 to 60; 0.3 when left out.
     pub settle: f64,
     /// Longest time between two points of the trajectory while the arm moves, seconds, 0.001 to 1;
-    /// 0.04 when left out.
+    /// 0.04 when left out. A plan has at most 50,000 points: the error of a period too short for that
+    /// says which would do.
     pub sample_period: f64,
     /// Whether the joints' jerk is bounded too. Every leg is then an S-curve from rest to rest, and
     /// detours stop at their corners. Where the robot has no jerk limit, one that reaches the

@@ -102,11 +102,12 @@ pub struct CheckedJson {
     pub smallest_clearance: Option<ClearanceJson>,
     /// Where parts of the arm come nearest to each other.
     pub smallest_self_clearance: Option<ClearanceJson>,
-    /// Largest share of a joint's speed limit (scaled by `timing.speed_scale`).
+    /// Largest share of a joint's speed limit (scaled by `timing.speed_scale`), at most 1e9.
     pub largest_speed_share: f64,
-    /// Largest share of a joint's acceleration limit, from differences of speeds.
+    /// Largest share of a joint's acceleration limit, from differences of speeds, at
+    /// most 1e9.
     pub largest_acceleration_share: f64,
-    /// Largest share of a joint's jerk limit; null where jerk is not limited.
+    /// Largest share of a joint's jerk limit, at most 1e9; null where jerk is not limited.
     pub largest_jerk_share: Option<f64>,
     /// Largest distance of a camera from its view's pose, metres.
     pub largest_pose_error_m: f64,

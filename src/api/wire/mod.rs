@@ -1,7 +1,6 @@
 //! The service's JSON, member by member: names, units and defaults as documented in OpenAPI.
 //!
-//! Requests refuse unknown members. A request serialised again from these types is its
-//! canonical form: the plan id is a hash of it.
+//! Requests refuse unknown members.
 
 mod camera;
 mod cell;
@@ -17,6 +16,7 @@ mod reachability;
 mod robot;
 mod robot_details;
 mod view_space;
+mod whole;
 
 pub use camera::CameraJson;
 pub use cell::{BoxJson, CapsuleJson, CylinderJson, KeepOutJson, SolidJson, SphereJson, TimingJson};

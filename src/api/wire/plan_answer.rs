@@ -11,7 +11,8 @@ use super::{ExpectedPose, PoseJson};
 #[derive(Clone, Debug, Serialize, Deserialize, ToSchema)]
 #[schema(as = Plan)]
 pub struct PlanAnswer {
-    /// Hash of the request, the service's version and the model: the same request has the same id.
+    /// Hash of what the request means, the service's version and the model: requests that mean the same
+    /// have the same id.
     pub id: String,
     /// The number of views and where it comes from.
     pub view_count: ViewCountJson,

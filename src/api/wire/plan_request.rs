@@ -32,7 +32,11 @@ pub struct PlanRequestJson {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image_poses: Option<Vec<PoseJson>>,
     /// Number of views, 1 to 200: skips the prediction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "super::whole::optional_whole"
+    )]
     #[schema(minimum = 1, maximum = 200)]
     pub view_count: Option<u32>,
     /// `initial` plans the path through the initial photo poses, ending at the top view.
@@ -49,7 +53,9 @@ pub struct PlanRequestJson {
     /// The views' shell; 0.3 m, 5 to 90 degrees when left out.
     #[serde(default)]
     pub view_space: ViewSpaceJson,
-    /// The arm; without it the answer holds poses and order only.
+    /// The arm; without it the answer holds poses and order only. Members about the arm (`limits`,
+    /// `flange_from_camera`, `start`, `roll`, `objective`, `keep_out`, `camera_body`, `tool`, `margin`, `timing`,
+    /// `unreachable_views`) are refused without it, unless they say what is so anyway.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub robot: Option<RobotJson>,
     /// Joint limits by joint name that replace the robot's own.
@@ -65,11 +71,14 @@ pub struct PlanRequestJson {
     /// the first view when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<Vec<f64>>,
-    /// Whether a view may be turned about its optical axis; `fixed`, a level horizon, when left out.
-    /// `free` reaches more views with less motion.
+    /// Whether the camera may be turned about its optical axis at a view: `fixed` keeps the horizon
+    /// level, `free` lets the planner choose among 12 turns, `sampled` among `roll_samples`. Turned
+    /// views see the same of the object; they are reached more often and with less motion. `fixed` when
+    /// left out.
     #[serde(default)]
     pub roll: RollJson,
-    /// What the order of the views and the arm's motion are made for; `distance` when left out.
+    /// What the order of the views and the arm's motion are made for: `distance`, the shortest path of the
+    /// camera, or `time`, the shortest execution. `distance` when left out.
     #[serde(default, skip_serializing_if = "ObjectiveJson::is_distance")]
     pub objective: ObjectiveJson,
     /// Regions that nothing of the arm may enter, at most 64. Views that cannot be taken because of
@@ -91,16 +100,22 @@ pub struct PlanRequestJson {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schema(minimum = 0.0, maximum = 0.2)]
     pub margin: Option<f64>,
-    /// Speed, rest at the views, sampling.
+    /// How the motion is timed: share of the speed limits, rest at the views, time between points,
+    /// bounded jerk. Each member has a default of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timing: Option<TimingJson>,
     /// With `roll` `sampled`, and only then: the number of evenly spaced rolls, 1 to 64, of which a
     /// level horizon is the first.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "super::whole::optional_whole"
+    )]
     #[schema(minimum = 1, maximum = 64)]
     pub roll_samples: Option<u32>,
-    /// What becomes of views that the arm cannot reach; `replace` when left out. Initial views are
-    /// never replaced.
+    /// What becomes of views that the arm cannot reach: `replace` spreads as many views as asked for
+    /// again over the part of the band that it can reach, `skip` leaves them out with their reasons.
+    /// Initial views are never replaced. `replace` when left out.
     #[serde(default, skip_serializing_if = "UnreachableViewsJson::is_replace")]
     pub unreachable_views: UnreachableViewsJson,
 }

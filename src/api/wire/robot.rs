@@ -16,20 +16,22 @@ pub struct RobotJson {
     /// Denavit-Hartenberg rows of six or seven revolute joints, base to flange.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dh: Option<Vec<DhRowJson>>,
-    /// Which convention `dh` follows; `standard` when left out.
+    /// Which convention `dh` follows; `standard` when left out. `modified` with `dh` alone.
     #[serde(default, skip_serializing_if = "DhConventionJson::is_standard")]
     pub convention: DhConventionJson,
     /// A URDF document with one serial chain of six or seven revolute joints.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub urdf: Option<String>,
-    /// The URDF's link in whose frame everything is given; its root when left out.
+    /// The URDF's link in whose frame everything is given; its root when left out. With `urdf` alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base_link: Option<String>,
-    /// The URDF's link that carries the camera; found by its customary name when left out.
+    /// The URDF's link that carries the camera; found by its customary name when left out. With `urdf`
+    /// alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_link: Option<String>,
     /// Files of the URDF's collision meshes by the name it gives them, STL or OBJ in base64: a box
-    /// or capsule that holds each takes its place. A mesh without file is left out, with a warning.
+    /// or capsule that holds each takes its place. A mesh without file is left out with a warning, as is a file that no mesh
+    /// names. With `urdf` alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub meshes: Option<BTreeMap<String, String>>,
 }
@@ -57,7 +59,7 @@ impl DhConventionJson {
 #[serde(deny_unknown_fields)]
 #[schema(as = DhRow)]
 pub struct DhRowJson {
-    /// The joint's name; numbered when left out.
+    /// The joint's name, no other joint's; numbered when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Link offset d in metres.

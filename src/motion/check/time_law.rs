@@ -6,6 +6,9 @@ use crate::robot::Joint;
 
 /// Relative excess over a limit that counts as rounding.
 const ROUNDING: f64 = 1e-6;
+/// Points less than this apart in time are taken for simultaneous, seconds: differences over less say
+/// nothing.
+const LEAST_STEP_S: f64 = 1e-9;
 
 /// The limits of a joint, scaled as the timing asks.
 struct Limits<'a> {
@@ -43,7 +46,7 @@ pub(super) fn judge(claim: &Claim, verdict: &mut Verdict) -> bool {
     }
     for (i, pair) in claim.trajectory.windows(2).enumerate() {
         let [before, after] = pair else { continue };
-        if after.time_from_start_s <= before.time_from_start_s {
+        if !(after.time_from_start_s - before.time_from_start_s >= LEAST_STEP_S) {
             let time_s = after.time_from_start_s;
             verdict.violations.push(Violation::Time { point: i + 1, time_s });
         }
@@ -74,7 +77,7 @@ fn judge_differences(claim: &Claim, j: usize, limits: &Limits, verdict: &mut Ver
     for (i, pair) in claim.trajectory.windows(2).enumerate() {
         let [before, after] = pair else { continue };
         let dt = after.time_from_start_s - before.time_from_start_s;
-        if dt <= 0.0 {
+        if !(dt >= LEAST_STEP_S) {
             continue;
         }
         let moved = after.positions_rad[j] - before.positions_rad[j];

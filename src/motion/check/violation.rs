@@ -12,7 +12,7 @@ pub enum Violation {
         point: usize,
     },
     /// Time does not increase.
-    #[error("point {point}: time {time_s} s is not after the one before")]
+    #[error("point {point}: time {time_s:.9} s is not after the one before")]
     Time {
         /// Index of the point.
         point: usize,
@@ -20,7 +20,7 @@ pub enum Violation {
         time_s: f64,
     },
     /// A joint beyond its position, speed, acceleration or jerk limit.
-    #[error("point {point}: {quantity} of {joint} is {value}, its limit {limit}")]
+    #[error("point {point}: {quantity} of {joint} is {value:.9}, its limit {limit:.9}")]
     Limit {
         /// Index of the point.
         point: usize,
@@ -34,7 +34,7 @@ pub enum Violation {
         limit: f64,
     },
     /// Positions do not follow from velocities.
-    #[error("point {point}: {joint} jumps by {jump_rad} rad against its speeds")]
+    #[error("point {point}: {joint} jumps by {jump_rad:.9} rad against its speeds")]
     Jump {
         /// Index of the point.
         point: usize,
@@ -44,7 +44,7 @@ pub enum Violation {
         jump_rad: f64,
     },
     /// The motion does not begin at the start state.
-    #[error("the motion begins {largest_rad} rad from the start state")]
+    #[error("the motion begins {largest_rad:.9} rad from the start state")]
     Start {
         /// Largest difference of a joint, radians.
         largest_rad: f64,
@@ -58,7 +58,7 @@ pub enum Violation {
         problem: &'static str,
     },
     /// The camera is not where a view wants it.
-    #[error("view {view}: camera is {position_m} m and {rotation_rad} rad off")]
+    #[error("view {view}: camera is {position_m:.9} m and {rotation_rad:.9} rad off")]
     PoseError {
         /// Index of the view.
         view: usize,

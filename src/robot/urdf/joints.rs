@@ -76,5 +76,6 @@ pub(super) fn limits(joint: &urdf_rs::Joint, warnings: &mut Vec<RobotWarning>) -
         continuous,
     };
     check_joint(&limits)?;
+    warnings.extend(RobotWarning::speed_in_degrees(&limits));
     Ok(limits)
 }
