@@ -18,6 +18,7 @@ pub mod robot;
 
 pub mod motion;
 
+pub mod objects;
 pub mod predict;
 
 pub mod plan;

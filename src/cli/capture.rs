@@ -8,11 +8,11 @@ use prv::api::{coverage_json, warnings_json};
 use prv::geometry::{Point, Pose};
 use prv::imaging::{Camera, composite};
 use prv::motion::Roll;
+use prv::objects::load_object;
 use prv::order::Obstacle;
 use prv::plan::{
     Arm, ObjectSphere, Plan, PlanRequest, UnreachableViews, ViewShell, ViewSource, ViewStatus, make_plan,
 };
-use prv::render::{Mesh, sample_names, sample_object};
 use prv::robot::RobotModel;
 use prv::simulate::{
     Carrier, End, Flight, Following, MAX_SPEED_FACTOR, Observer, Photo, RenderedObject, Run, SimulateError,
@@ -29,7 +29,7 @@ use super::camera_flag::CameraFlag;
 /// request to the service.
 #[derive(clap::Args)]
 pub struct Args {
-    /// An OBJ or glTF file, library.sh3f#entry, or sample:NAME.
+    /// An OBJ or glTF file, library.sh3f#entry, sample:NAME or made:FAMILY/SEED; with ~texture=N in other textures.
     #[arg(long, env = "PRV_OBJECT")]
     object: String,
     /// `initial` (top, left, front), `initial-five`, or a number of views from 1 to 200.
@@ -104,7 +104,7 @@ enum UnreachableArg {
 
 /// Takes the photos.
 pub fn run(args: &Args) -> CliResult {
-    let mesh = load(&args.object)?;
+    let mesh = load_object(&args.object)?;
     let request = request(args)?;
     let plan = make_plan(&request, Err("captures predict nothing"))?;
     for warning in &plan.warnings {
@@ -192,14 +192,6 @@ fn carrier(request: &PlanRequest, plan: &Plan) -> Result<Carrier, Box<dyn std::e
     let obstacle =
         Obstacle { center: object.center_in_base, radius_m: object.radius_m, table_z_m: object.table_z_m };
     Ok(Carrier::Free(Flight::through(&views, &obstacle)))
-}
-
-fn load(object: &str) -> Result<Mesh, Box<dyn std::error::Error>> {
-    match object.strip_prefix("sample:") {
-        Some(name) => sample_object(name)
-            .ok_or_else(|| format!("no sample {name:?}; there are {}", sample_names().join(", ")).into()),
-        None => Ok(Mesh::load(Path::new(object))?),
-    }
 }
 
 /// Writes photos as they are taken.

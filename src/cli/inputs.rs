@@ -9,8 +9,9 @@ use image::RgbaImage;
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::geometry::Point;
 use prv::imaging::Camera;
+use prv::objects::{ObjectEntry, ObjectLookup};
 use prv::predict::crop;
-use prv::render::{ObjectEntry, RenderSettings, Renderer, find_objects};
+use prv::render::{RenderSettings, Renderer};
 use prv::views::{Band, ViewSpace, initial_views_five};
 use sha2::{Digest, Sha256};
 
@@ -27,9 +28,9 @@ const KEY_COLUMNS: [&str; 3] = ["object", "radius_m", "seed"];
 /// there already are left alone.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Folder of objects: .sh3f libraries, OBJ, glTF.
-    #[arg(long, env = "PRV_OBJECTS")]
-    objects: PathBuf,
+    /// Folders or files where the labelled objects are (.sh3f libraries, OBJ, glTF); made objects need none.
+    #[arg(long, env = "PRV_OBJECTS", num_args = 1..)]
+    objects: Vec<String>,
     /// Label file with at least the columns object, radius_m and seed.
     #[arg(long, env = "PRV_LABELS", default_value = "labels.csv")]
     labels: PathBuf,
@@ -58,8 +59,7 @@ struct LabelledRow {
 /// Renders what is missing.
 pub fn run(args: &Args) -> CliResult {
     let rows = read_rows(&args.labels)?;
-    let entries: HashMap<String, ObjectEntry> =
-        find_objects(&args.objects)?.into_iter().map(|entry| (entry.key.clone(), entry)).collect();
+    let objects = ObjectLookup::new(&args.objects)?;
     std::fs::create_dir_all(&args.out)?;
     let bar = ProgressBar::new(rows.len() as u64).with_style(ProgressStyle::with_template(
         "{elapsed_precise} [{wide_bar}] {pos}/{len} objects, {eta_precise} left",
@@ -71,9 +71,9 @@ pub fn run(args: &Args) -> CliResult {
     let (next, failures) = (AtomicUsize::new(0), Mutex::new(HashMap::new()));
     let work = || {
         while let Some(row) = rows.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let outcome = match entries.get(&row.key[0]) {
-                Some(entry) => photograph(entry, row, args).map_err(|error| error.to_string()),
-                None => Err(format!("is not among the usable objects of {}", args.objects.display())),
+            let outcome = match objects.get(&row.key[0]) {
+                Some(entry) => photograph(&entry, row, args).map_err(|error| error.to_string()),
+                None => Err(format!("is not among the usable objects of {:?}", args.objects)),
             };
             if args.json {
                 println!(

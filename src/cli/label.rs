@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use prv::label::measure::{LabelSettings, measure};
 use prv::label::protocol::{seed_of, view_counts};
 use prv::label::store::LabelStore;
-use prv::render::{ObjectEntry, find_objects};
+use prv::objects::{ObjectEntry, select_objects};
 
 use super::CliResult;
 
@@ -18,9 +18,10 @@ use super::CliResult;
 /// May be killed at any time: a finished object is on disk before the next one starts.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Folder of objects: .sh3f libraries, OBJ, glTF.
-    #[arg(long, env = "PRV_OBJECTS")]
-    objects: PathBuf,
+    /// Folders or files of objects (.sh3f libraries, OBJ, glTF), made:FAMILY/0..100, made:*/0..10, or .txt lists of
+    /// such; with ~texture=0..3 at the end the variants of them in other textures.
+    #[arg(long, env = "PRV_OBJECTS", required = true, num_args = 1..)]
+    objects: Vec<String>,
     /// File to append to.
     #[arg(long, env = "PRV_LABELS", default_value = "labels.csv")]
     out: PathBuf,
@@ -75,7 +76,7 @@ pub fn run(args: &Args) -> CliResult {
         .into());
     }
     // Random order by hash, so that what is finished at any time is a fair sample, on any number of machines.
-    let mut entries: Vec<ObjectEntry> = find_objects(&args.objects)?;
+    let mut entries: Vec<ObjectEntry> = select_objects(&args.objects)?;
     entries.sort_by_cached_key(|entry| seed_of(&entry.key, 0));
     let all = entries.len();
     entries.retain(|entry| seed_of(&entry.key, 1) % args.shard.count == args.shard.index);

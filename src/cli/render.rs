@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use prv::geometry::{Point, direction_from_azimuth_elevation, look_at};
 use prv::imaging::{Camera, composite};
-use prv::render::{Mesh, RenderSettings, Renderer, sample_names, sample_object};
+use prv::objects::load_object;
+use prv::render::{RenderSettings, Renderer};
 
 use super::CliResult;
 use super::camera_flag::CameraFlag;
@@ -12,7 +13,8 @@ use super::camera_flag::CameraFlag;
 /// Render an object as a camera on a sphere about it sees it.
 #[derive(clap::Args)]
 pub struct Args {
-    /// OBJ, glTF or .glb file, `library.sh3f#entry.obj`, or `sample:NAME` (`sample:NAME:SEED`).
+    /// OBJ, glTF or .glb file, `library.sh3f#entry.obj`, `sample:NAME` (`sample:NAME:SEED`) or `made:FAMILY/SEED`;
+    /// any of them with `~texture=N` in other textures.
     #[arg(long, env = "PRV_OBJECT")]
     object: String,
     /// Azimuth of the camera, degrees from +x towards +y; fronts face -y, that is -90.
@@ -58,12 +60,7 @@ pub fn run(args: &Args) -> CliResult {
             return Err(format!("--{name} is {value}, must be greater than 0 and less than 1000 m").into());
         }
     }
-    let mesh = match args.object.strip_prefix("sample:") {
-        Some(name) => sample_object(name).ok_or_else(|| {
-            format!("no sample is called {name:?}; there are {}", sample_names().join(", "))
-        })?,
-        None => Mesh::load(&args.object)?,
-    };
+    let mesh = load_object(&args.object)?;
     for warning in &mesh.warnings {
         eprintln!("warning: {warning}");
     }

@@ -13,7 +13,8 @@ use super::store::{LabelRecord, LabelStatus};
 use crate::geometry::{Direction, Point, Pose};
 use crate::imaging::{Camera, PosedImage};
 use crate::nerf::{Bounds, NerfError, NerfSettings, train};
-use crate::render::{Mesh, MeshError, ObjectEntry, RenderSettings, Renderer};
+use crate::objects::ObjectEntry;
+use crate::render::{Mesh, MeshError, RenderSettings, Renderer};
 use crate::views::{Band, ViewSpace, ViewsError, initial_views_five, tammes};
 
 /// Why an object got no label.

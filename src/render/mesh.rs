@@ -163,7 +163,7 @@ impl Mesh {
     }
 
     /// How many different colours the drawn surfaces have, counting only plain materials.
-    pub(super) fn plain_colours(&self) -> usize {
+    pub(crate) fn plain_colours(&self) -> usize {
         let mut colours: Vec<[u32; 3]> = self
             .triangle_materials
             .iter()
@@ -177,7 +177,7 @@ impl Mesh {
     }
 
     /// True when a drawn surface has a texture and coordinates to place it.
-    pub(super) fn has_texture(&self) -> bool {
+    pub(crate) fn has_texture(&self) -> bool {
         !self.uvs.is_empty()
             && self
                 .triangle_materials

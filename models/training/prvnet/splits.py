@@ -10,8 +10,8 @@ FOLDS = 10
 
 
 def group_of(key: str) -> str:
-    """The object key without what marks a size or a variant (`#...` or `@...` at its end)."""
-    return re.split(r"[#@]", key, maxsplit=1)[0]
+    """The object key without what marks a size or a variant (`#...`, `@...` or `~texture=...` at its end)."""
+    return re.split(r"[#@~]", key, maxsplit=1)[0]
 
 
 def fold_of(group: str) -> int:

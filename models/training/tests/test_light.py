@@ -38,6 +38,18 @@ def test_sizes_and_variants_of_an_object_share_a_fold():
     assert splits.fold_of(splits.group_of("mug#1")) == splits.fold_of("mug")
 
 
+@pytest.mark.parametrize("original", ["made:mug/17", "Scopia/scopia/clothes_washing_machine/clothes_washing_machine"])
+def test_textures_of_an_object_never_part_it(original):
+    keys = [original, *(f"{original}~texture={number}" for number in range(20))]
+    assert {splits.group_of(key) for key in keys} == {original}
+    assert len({splits.fold_of(splits.group_of(key)) for key in keys}) == 1
+
+
+def test_made_objects_of_one_family_are_different_objects():
+    groups = {splits.group_of(f"made:mug/{seed}~texture=1") for seed in range(40)}
+    assert len(groups) == 40 and len({splits.fold_of(group) for group in groups}) > 5
+
+
 def test_folds_are_the_same_on_every_machine():
     assert [splits.fold_of(name) for name in ("mug", "chair", "lamp")] == [2, 7, 1]
 

@@ -6,7 +6,7 @@ use super::archive::Archive;
 use super::read_file;
 
 /// Where a model's material files, textures and buffers come from.
-pub(in crate::render) trait Files {
+pub(crate) trait Files {
     /// The bytes of a file named in the model, or why there are none.
     fn read(&self, name: &str) -> Result<Vec<u8>, String>;
     /// True when [`Self::read`] would find the file.
@@ -27,13 +27,13 @@ fn parts(name: &str) -> Vec<String> {
 }
 
 /// A folder on disk.
-pub(in crate::render) struct Folder {
+pub(crate) struct Folder {
     path: PathBuf,
 }
 
 impl Folder {
     /// The folder that `file` lies in.
-    pub(in crate::render) fn beside(file: &Path) -> Self {
+    pub(crate) fn beside(file: &Path) -> Self {
         Self { path: file.parent().unwrap_or(Path::new("")).to_owned() }
     }
 
@@ -67,14 +67,14 @@ impl Files for Folder {
 }
 
 /// A folder within an archive.
-pub(in crate::render) struct ArchiveFolder<'a> {
+pub(crate) struct ArchiveFolder<'a> {
     archive: &'a Archive,
     folder: String,
 }
 
 impl Archive {
     /// The folder that `entry` lies in.
-    pub(in crate::render) fn beside(&self, entry: &str) -> ArchiveFolder<'_> {
+    pub(crate) fn beside(&self, entry: &str) -> ArchiveFolder<'_> {
         let folder = entry.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
         ArchiveFolder { archive: self, folder }
     }

@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 
 use super::Mesh;
 use archive::Archive;
-pub(super) use files::Folder;
-pub(super) use obj_scan::{ObjSummary, scan_obj};
+pub(crate) use files::Folder;
+pub(crate) use obj_scan::{ObjSummary, scan_obj};
 
 /// The most bytes of one file or archive entry.
 pub const MAX_FILE_BYTES: u64 = 512 << 20;
@@ -128,18 +128,18 @@ fn finish(mut mesh: Mesh, name: String) -> Result<Mesh, MeshError> {
 }
 
 /// Parts of `library.sh3f#entry`.
-pub(super) fn split_address(address: &str) -> Option<(&str, &str)> {
+pub(crate) fn split_address(address: &str) -> Option<(&str, &str)> {
     let (library, entry) = address.rsplit_once('#')?;
     library.to_ascii_lowercase().ends_with(".sh3f").then_some((library, entry))
 }
 
 /// A name's ending in small letters.
-pub(super) fn extension(path: &Path) -> String {
+pub(crate) fn extension(path: &Path) -> String {
     path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
 /// Reads a file of at most [`MAX_FILE_BYTES`].
-pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, MeshError> {
+pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, MeshError> {
     let unreadable = |source| MeshError::Unreadable { path: path.to_owned(), source };
     let file = std::fs::File::open(path).map_err(unreadable)?;
     read_bounded(file, &path.display().to_string()).unwrap_or_else(|e| Err(unreadable(e)))

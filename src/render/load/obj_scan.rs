@@ -8,17 +8,17 @@ use super::text::to_text;
 
 /// What an OBJ holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(in crate::render) struct ObjSummary {
+pub(crate) struct ObjSummary {
     /// Triangles, polygons counted as fans.
-    pub(in crate::render) triangles: usize,
+    pub(crate) triangles: usize,
     /// Materials in use whose texture is there and is PNG or JPEG by name.
-    pub(in crate::render) textured: usize,
+    pub(crate) textured: usize,
     /// Different colours of the other materials in use.
-    pub(in crate::render) colours: usize,
+    pub(crate) colours: usize,
 }
 
 /// Reads the face and material lines of an OBJ and its material files.
-pub(in crate::render) fn scan_obj(bytes: &[u8], files: &dyn Files) -> ObjSummary {
+pub(crate) fn scan_obj(bytes: &[u8], files: &dyn Files) -> ObjSummary {
     let mut summary = ObjSummary::default();
     let mut used: BTreeSet<String> = BTreeSet::new();
     let mut current = String::new();

@@ -4,10 +4,12 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use super::load::archive::Archive;
-use super::load::furniture::{self, FurnitureItem};
-use super::load::{ObjSummary, extension, read_file, scan_obj, split_address};
-use super::{Mesh, MeshError};
+use super::entry::{ObjectEntry, Source};
+use super::selection::file;
+use crate::render::load::archive::Archive;
+use crate::render::load::furniture::{self, FurnitureItem};
+use crate::render::load::{Folder, ObjSummary, extension, read_file, scan_obj};
+use crate::render::{Mesh, MeshError};
 
 /// The fewest triangles of a usable object.
 const MIN_TRIANGLES: usize = 100;
@@ -15,26 +17,6 @@ const MIN_TRIANGLES: usize = 100;
 const MIN_COLOURS: usize = 3;
 /// The furniture category for people.
 const PEOPLE: &str = "Characters";
-
-/// An object that can be loaded.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ObjectEntry {
-    /// Unique among the objects found together: the path below the folder, or
-    /// `library/folder/model` for a library's model.
-    pub key: String,
-    /// Name for people.
-    pub name: String,
-    /// The library's category; empty for plain files.
-    pub category: String,
-    /// The library's licence; empty for plain files.
-    pub licence: String,
-    /// Who made it; empty if unknown.
-    pub creator: String,
-    /// The file, or the library.
-    pub path: PathBuf,
-    /// The model's entry when `path` is a library.
-    pub entry: Option<String>,
-}
 
 /// Why an object is not used for labels.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -60,27 +42,6 @@ pub enum Unusable {
     /// It cannot be read.
     #[error("cannot be read: {0}")]
     Unreadable(String),
-}
-
-impl ObjectEntry {
-    /// Loads the mesh, z up.
-    ///
-    /// # Errors
-    /// [`MeshError`].
-    pub fn load(&self) -> Result<Mesh, MeshError> {
-        match &self.entry {
-            Some(entry) => Mesh::load_entry(&self.path, entry),
-            None => Mesh::load(&self.path),
-        }
-    }
-
-    /// How [`Mesh::load`] and the command line name the object.
-    pub fn address(&self) -> String {
-        match &self.entry {
-            Some(entry) => format!("{}#{entry}", self.path.display()),
-            None => self.path.display().to_string(),
-        }
-    }
 }
 
 /// The usable objects below a folder, or in one file, sorted by key: .obj, .gltf and .glb files and the
@@ -114,20 +75,8 @@ pub fn look_at_objects(dir: impl AsRef<Path>) -> Result<Vec<LookedAt>, MeshError
             found.push(plain_file(dir, path));
         }
     }
-    found.sort_by(|(a, _), (b, _)| a.key.cmp(&b.key).then_with(|| a.path.cmp(&b.path)));
+    found.sort_by(|(a, _), (b, _)| a.key.cmp(&b.key).then_with(|| a.address().cmp(&b.address())));
     Ok(found)
-}
-
-/// The object at an address as [`ObjectEntry::address`] gives it, without judging it.
-pub fn object_at(address: &str) -> ObjectEntry {
-    let (path, entry) = match split_address(address) {
-        Some((library, entry)) => (PathBuf::from(library), Some(entry.to_owned())),
-        None => (PathBuf::from(address), None),
-    };
-    let stem = Path::new(entry.as_deref().unwrap_or(address)).file_stem();
-    let name = stem.map_or(address.to_owned(), |s| s.to_string_lossy().into_owned());
-    let (category, licence, creator) = Default::default();
-    ObjectEntry { key: address.to_owned(), name, category, licence, creator, path, entry }
 }
 
 fn walk(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), MeshError> {
@@ -151,10 +100,10 @@ fn walk(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), MeshError> {
 
 fn plain_file(dir: &Path, path: PathBuf) -> (ObjectEntry, Result<(), Unusable>) {
     let below = path.strip_prefix(dir).ok().filter(|p| !p.as_os_str().is_empty()).unwrap_or(&path);
-    let mut entry = object_at(&path.to_string_lossy());
+    let mut entry = file(&path.to_string_lossy());
     entry.key = below.to_string_lossy().replace('\\', "/");
     let verdict = if extension(&path) == "obj" {
-        let folder = super::load::Folder::beside(&path);
+        let folder = Folder::beside(&path);
         read_file(&path).map(|bytes| scan_obj(&bytes, &folder))
     } else {
         Mesh::load(&path).map(|mesh| ObjSummary {
@@ -195,8 +144,8 @@ fn entry_of(library: &Path, item: &FurnitureItem) -> ObjectEntry {
         category: item.category.clone(),
         licence: item.licence.clone(),
         creator: item.creator.clone(),
-        path: library.to_owned(),
-        entry: Some(item.model.clone()),
+        source: Source::Library { path: library.to_owned(), entry: item.model.clone() },
+        texture: None,
     }
 }
 
