@@ -1,6 +1,6 @@
 //! `prv capture`: photos of an object without a service.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use image::{DynamicImage, ImageFormat};
 use indicatif::{ProgressBar, ProgressStyle};

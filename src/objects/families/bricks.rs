@@ -86,8 +86,8 @@ fn brick(a: &mut Assembly, at: [f64; 3], (w, d): (usize, usize), paint: u32) {
                 low.y + (j as f64 + 0.5) * PITCH_M,
                 low.z + HEIGHT_M - GAP_M,
             );
-            let stud = [[0.0, 0.0017], [0.0022, 0.0017], [0.0024, 0.0015], [0.0024, -0.0005], [0.0, -0.0005]];
-            a.within(frame, |a| a.lathe(12, &[Section::new(&stud, paint)]));
+            let stud = [[0.0, 0.0017], [0.0024, 0.0017], [0.0024, -0.0005], [0.0, -0.0005]];
+            a.within(frame, |a| a.lathe(10, &[Section::new(&stud, paint)]));
         }
     }
 }

@@ -11,7 +11,7 @@ pub(super) fn make(dice: &mut Dice) -> Assembly {
     let style = Style::draw(dice);
     let paint = style.surface(&mut a, dice, [0.2, 0.15]);
     let other = style.turned(1).surface(&mut a, dice, [0.1, 0.1]);
-    match dice.int(0, 7) {
+    match dice.int(0, 8) {
         0 => knot(&mut a, dice, paint),
         1 => column(&mut a, dice, paint),
         2 => stone(&mut a, dice, paint),
@@ -19,6 +19,7 @@ pub(super) fn make(dice: &mut Dice) -> Assembly {
         4 => crystal(&mut a, dice, paint, other),
         5 => rings(&mut a, dice, paint, other),
         6 => lumps(&mut a, dice, paint, other),
+        7 => tower(&mut a, dice, paint, other),
         _ => spirals(&mut a, dice, paint, other),
     }
     if dice.chance(0.5) {
@@ -118,7 +119,7 @@ fn stone(a: &mut Assembly, dice: &mut Dice, paint: u32) {
 
 /// A body cut by a periodic minimal surface: holes through and through.
 fn lattice(a: &mut Assembly, dice: &mut Dice, paint: u32) {
-    let (size, cell) = (0.05, dice.range(0.02, 0.06));
+    let (size, cell) = (0.05, dice.range(0.026, 0.07));
     let thick = dice.range(0.25, 0.8);
     let (boxy, gyroid) = (dice.chance(0.5), dice.chance(0.6));
     let field = |p: V| {
@@ -135,7 +136,7 @@ fn lattice(a: &mut Assembly, dice: &mut Dice, paint: u32) {
         sheet.max(body)
     };
     let reach = size * 1.2 + 0.004;
-    a.field(V::repeat(-reach), V::repeat(reach), reach * 2.0 / 52.0, 0.1, field, |_| paint);
+    a.field(V::repeat(-reach), V::repeat(reach), reach * 2.0 / 40.0, 0.1, field, |_| paint);
 }
 
 fn crystal(a: &mut Assembly, dice: &mut Dice, paint: u32, other: u32) {
@@ -218,5 +219,18 @@ fn spirals(a: &mut Assembly, dice: &mut Dice, paint: u32, other: u32) {
             let wave = 1.0 + 0.05 * sin_turns(f64::from(angle_turns(p.y as f32, p.x as f32)) * 6.0);
             v(0.0, 0.0, tall * 0.5) + p * (low.min(high) * 0.7 * wave)
         });
+    }
+}
+
+/// Pillows, balls and octahedra on top of each other.
+fn tower(a: &mut Assembly, dice: &mut Dice, paint: u32, other: u32) {
+    let mut z = 0.0;
+    for k in 0..dice.int(2, 6) {
+        let half = v(dice.range(0.015, 0.045), dice.range(0.015, 0.045), dice.range(0.008, 0.03));
+        let squareness = dice.range(0.15, 1.9);
+        let frame =
+            a.at.moved(dice.around_zero(0.004), dice.around_zero(0.004), z + half.z).turned(2, dice.unit());
+        a.within(frame, |a| a.superquadric(half, squareness, 32, if k % 2 == 0 { paint } else { other }));
+        z += half.z * 1.85;
     }
 }

@@ -16,7 +16,7 @@ pub(super) use aged::aged;
 pub(super) use atlas::{atlas, bands};
 pub(super) use color::{Color, mix, of_hue, scaled};
 pub(super) use material::{brushed_metal, leather, ribbed, skin_of_fruit, wood};
-pub(super) use noise::{cells, fractal, smooth, unit};
+pub(super) use noise::fractal;
 pub(super) use palette::Palette;
 pub(super) use patches::mosaic_skin;
 pub(super) use pattern::{nearly_plain, pattern, plain_or_pattern};

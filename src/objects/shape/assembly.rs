@@ -29,6 +29,7 @@ pub(in crate::objects) struct Built {
     /// The mesh; triangles as the parts say.
     pub(in crate::objects) mesh: Mesh,
     /// In the order in which they were added.
+    #[cfg_attr(not(test), expect(dead_code, reason = "the tests hold the parts to what they promise"))]
     pub(in crate::objects) parts: Vec<Part>,
 }
 

@@ -15,7 +15,9 @@ mod outline;
 mod rounded_box;
 mod sweep;
 
-pub(super) use assembly::{Assembly, Built, Part, UvRect, WHOLE};
+#[cfg(test)]
+pub(super) use assembly::Part;
+pub(super) use assembly::{Assembly, Built, WHOLE};
 pub(super) use blob::{Blob, Lump};
 pub(super) use box_projection::box_project;
 pub(super) use curve::{path_through, rounded};

@@ -38,7 +38,8 @@ impl Assembly {
         uvs: [UvRect; 6],
         paint: u32,
     ) {
-        self.box_bent(size, radius, steps, uvs, paint, |p| p);
+        let lattice = Lattice::new(size, radius, steps, 1);
+        self.box_of(&lattice, uvs, paint, |p| p);
     }
 
     /// As [`Self::rounded_box`], every point then moved by `bend`.
@@ -51,11 +52,13 @@ impl Assembly {
         paint: u32,
         bend: impl Fn(V) -> V,
     ) {
-        let half = size * 0.5;
-        let radius = radius.min(half.min() * 0.999).max(0.0);
-        // Flat stretches get cells, too, so that a bend has something to move.
-        let lattice = Lattice { half, radius, steps, flat: 4 };
+        // Flat stretches get cells, too, so that the bend has something to move.
+        self.box_of(&Lattice::new(size, radius, steps, 6), uvs, paint, bend);
+    }
+
+    fn box_of(&mut self, lattice: &Lattice, uvs: [UvRect; 6], paint: u32, bend: impl Fn(V) -> V) {
         let last = lattice.last();
+        let half = lattice.half;
         self.part(true, |a| {
             for (face, uv) in FACES.iter().zip(uvs) {
                 let [right, up, out] = *face;
@@ -108,6 +111,11 @@ struct Lattice {
 }
 
 impl Lattice {
+    fn new(size: V, radius: f64, steps: usize, flat: usize) -> Self {
+        let half = size * 0.5;
+        Self { half, radius: radius.min(half.min() * 0.999).max(0.0), steps, flat }
+    }
+
     fn last(&self) -> usize {
         2 * self.steps + self.flat
     }
