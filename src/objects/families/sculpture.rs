@@ -95,11 +95,12 @@ fn column(a: &mut Assembly, dice: &mut Dice, paint: u32) {
 
 fn stone(a: &mut Assembly, dice: &mut Dice, paint: u32) {
     let count = dice.int(1, 4);
-    let waves: Vec<(V, f64, f64)> = (0..dice.int(4, 24))
+    let many = dice.int(4, 24);
+    let waves: Vec<(V, f64, f64)> = (0..many)
         .map(|k| {
             let sharp = 1.0 + 0.3 * f64::from(k);
             let direction = v(dice.around_zero(1.0), dice.around_zero(1.0), dice.around_zero(1.0)) * sharp;
-            (direction, dice.unit(), dice.range(0.02, 0.25) / sharp)
+            (direction, dice.unit(), dice.range(0.05, 0.5) / (sharp * f64::from(many).sqrt()))
         })
         .collect();
     let mut z = 0.0;
@@ -136,7 +137,7 @@ fn lattice(a: &mut Assembly, dice: &mut Dice, paint: u32) {
         sheet.max(body)
     };
     let reach = size * 1.2 + 0.004;
-    a.field(V::repeat(-reach), V::repeat(reach), reach * 2.0 / 40.0, 0.1, field, |_| paint);
+    a.field(V::repeat(-reach), V::repeat(reach), reach * 2.0 / 33.0, 0.1, field, |_| paint);
 }
 
 fn crystal(a: &mut Assembly, dice: &mut Dice, paint: u32, other: u32) {

@@ -62,7 +62,34 @@ pub(super) fn march(low: V, high: V, cell: f64, field: impl Fn(V) -> f64) -> Sur
             }
         }
     }
-    Surface { points, triangles }
+    largest_part(Surface { points, triangles })
+}
+
+/// Leaves out what hangs in the air beside the part with the most triangles.
+fn largest_part(mut surface: Surface) -> Surface {
+    // Each point's root: the least index of its part, in the end.
+    let mut roots: Vec<u32> = (0..surface.points.len() as u32).collect();
+    let root = |roots: &mut Vec<u32>, mut i: u32| {
+        while roots[i as usize] != i {
+            roots[i as usize] = roots[roots[i as usize] as usize];
+            i = roots[i as usize];
+        }
+        i
+    };
+    for [a, b, c] in &surface.triangles {
+        for (a, b) in [(*a, *b), (*b, *c)] {
+            let (a, b) = (root(&mut roots, a), root(&mut roots, b));
+            roots[a.max(b) as usize] = a.min(b);
+        }
+    }
+    let mut sizes = vec![0u32; roots.len()];
+    for [a, ..] in &surface.triangles {
+        sizes[root(&mut roots, *a) as usize] += 1;
+    }
+    let Some(most) = sizes.iter().max().filter(|most| **most > 0) else { return surface };
+    let kept = sizes.iter().position(|size| size == most).unwrap_or(0) as u32;
+    surface.triangles.retain(|[a, ..]| root(&mut roots, *a) == kept);
+    surface
 }
 
 /// The triangles of one tetrahedron.
