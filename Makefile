@@ -4,13 +4,14 @@ PYTHON    ?= python3
 JOBS      ?= $(shell nproc)
 OBJECTS   ?= objects
 LABELS    ?= models/labels.csv
+REPEATS   ?= models/label_repeats.csv
 INPUTS    ?= models/training/data/inputs
 RUN       ?= models/training/runs/prvnet
 ENCODER   ?= efficientnet_lite0
 TRAIN_ENV := models/training/.venv
 SUDO      := $(if $(filter 0,$(shell id -u)),,sudo)
 
-.PHONY: run test system-packages build openapi views-table bench objects label inputs train-env train test-training
+.PHONY: run test system-packages build openapi views-table bench objects label label-repeats inputs train-env train pictures test-training
 
 ## Serves on 127.0.0.1:8080 with the model in models/.
 run: system-packages
@@ -79,6 +80,10 @@ $(OBJECTS)/.done:
 label: $(OBJECTS)/.done build
 	target/release/prv label --objects $(OBJECTS) --out $(LABELS) --jobs $(JOBS) --resume
 
+## Labels the first objects again with other seeds, turns and test views, to see how far labels scatter.
+label-repeats: $(OBJECTS)/.done build
+	target/release/prv label --objects $(OBJECTS) --out $(REPEATS) --repeat 1 --limit 40 --jobs $(JOBS) --resume
+
 ## The initial photos of every labelled object, as the network sees them.
 inputs: $(OBJECTS)/.done build
 	target/release/prv inputs --objects $(OBJECTS) --labels $(LABELS) --out $(INPUTS)
@@ -97,7 +102,13 @@ train: inputs train-env
 	  --encoder $(ENCODER) --statuses ok,not_converged --out $(abspath $(RUN))
 	cd models/training && .venv/bin/python -m prvnet.export --run $(abspath $(RUN)) --out $(abspath models/prvnet.onnx)
 	cd models/training && .venv/bin/python -m prvnet.card --run $(abspath $(RUN)) --model $(abspath models/prvnet.onnx) \
-	  --card $(abspath models/MODEL_CARD.md)
+	  --repeats $(abspath $(REPEATS)) --card $(abspath models/MODEL_CARD.md)
+	$(MAKE) pictures
+
+## The model card's pictures.
+pictures: inputs train-env
+	cd models/training && .venv/bin/python -m prvnet.pictures --labels $(abspath $(LABELS)) \
+	  --inputs $(abspath $(INPUTS)) --out $(abspath models/pictures)
 
 test-training: train-env
 	cd models/training && .venv/bin/python -m pytest -q

@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::label::measure::{LabelSettings, measure};
-use prv::label::protocol::{seed_of, view_counts};
+use prv::label::protocol::{curve_design, seed_of};
+use prv::label::record::samples_text;
 use prv::label::store::LabelStore;
 use prv::objects::{ObjectEntry, select_objects};
 
@@ -37,9 +38,12 @@ pub struct Args {
     /// Stop after this many objects of the shard (they are in random order).
     #[arg(long, env = "PRV_LIMIT")]
     limit: Option<usize>,
-    /// Seed of the run: with the object's key it fixes sizes, test views and NeRF seeds.
-    #[arg(long, env = "PRV_SEED", default_value_t = 0)]
-    seed: u64,
+    /// Sizes each object is labelled at, in 0.07 to 0.12 m; all objects get their first size first.
+    #[arg(long, env = "PRV_SIZES", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=20))]
+    sizes: u64,
+    /// Measure again with other NeRF seeds, turns of the view sets and test views: 0 for the first measurement.
+    #[arg(long, env = "PRV_REPEAT", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=1000))]
+    repeat: u64,
     /// Print one JSON line an object to stdout.
     #[arg(long, env = "PRV_JSON")]
     json: bool,
@@ -81,30 +85,38 @@ pub fn run(args: &Args) -> CliResult {
     let all = entries.len();
     entries.retain(|entry| seed_of(&entry.key, 1) % args.shard.count == args.shard.index);
     entries.truncate(args.limit.unwrap_or(usize::MAX));
-    entries.retain(|entry| !store.is_finished(&entry.key));
-    eprintln!("{all} objects, {} of this shard to label, {} finished", entries.len(), store.len());
+    let work: Vec<(&ObjectEntry, u64)> = (0..args.sizes)
+        .flat_map(|draw| entries.iter().map(move |entry| (entry, draw)))
+        .filter(|(entry, draw)| !store.is_finished(&entry.key, *draw, args.repeat))
+        .collect();
+    eprintln!("{all} objects, {} labels of this shard to make, {} finished", work.len(), store.len());
 
-    let bar = ProgressBar::new((entries.len() * view_counts().len()) as u64).with_style(
-        ProgressStyle::with_template(
-            "{elapsed_precise} [{wide_bar}] {pos}/{len} NeRFs, {eta_precise} left {msg}",
-        )?,
-    );
-    let settings = LabelSettings { run_seed: args.seed, ..LabelSettings::default() };
+    let nerfs: usize = curve_design().iter().map(|(_, nerfs)| nerfs).sum();
+    let bar = ProgressBar::new((work.len() * nerfs) as u64).with_style(ProgressStyle::with_template(
+        "{elapsed_precise} [{wide_bar}] {pos}/{len} NeRFs, {eta_precise} left {msg}",
+    )?);
     let jobs = if args.jobs == 0 { std::thread::available_parallelism()?.get() } else { args.jobs };
     let store = Mutex::new(store);
     let (next, failed) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let work = || -> Result<(), String> {
-        while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
+    let worker = || -> Result<(), String> {
+        while let Some(&(entry, draw)) = work.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let settings = LabelSettings { draw, repeat: args.repeat, ..LabelSettings::default() };
             match measure(entry, &settings, &mut |_, _| bar.inc(1)) {
                 Ok(record) => {
                     let mut store = store.lock().map_err(|e| e.to_string())?;
                     store.append(&record).map_err(|e| e.to_string())?;
-                    bar.set_message(format!("{} v*={:?}", record.object, record.v_star));
+                    let reading = &record.reading;
+                    bar.set_message(format!(
+                        "{} v*={:?} near={}",
+                        record.object, reading.v_star, reading.v_near
+                    ));
                     if args.json {
                         let line = serde_json::json!({
-                            "object": record.object, "radius_m": record.radius_m, "status": record.status.word(),
-                            "v_star": record.v_star, "v_star_sigma": record.v_star_sigma,
-                            "rms_db": record.rms_db, "psnr_db": record.psnr_db, "cpu_s": record.cpu_s,
+                            "object": record.object, "draw": record.draw, "repeat": record.repeat,
+                            "radius_m": record.radius_m, "status": reading.status.word(),
+                            "v_star": reading.v_star, "v_star_sigma": reading.v_star_sigma,
+                            "v_near": reading.v_near, "v_near_sigma": reading.v_near_sigma,
+                            "rms_db": reading.rms_db, "psnr_db": samples_text(&record.samples), "cpu_s": record.cpu_s,
                         });
                         println!("{line}");
                     }
@@ -118,10 +130,10 @@ pub fn run(args: &Args) -> CliResult {
         Ok(())
     };
     let outcomes: Vec<Result<(), String>> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(work)).collect();
+        let workers: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(worker)).collect();
         workers
             .into_iter()
-            .map(|worker| worker.join().unwrap_or_else(|_| Err("a worker panicked".into())))
+            .map(|handle| handle.join().unwrap_or_else(|_| Err("a worker panicked".into())))
             .collect()
     });
     bar.finish();

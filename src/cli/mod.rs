@@ -8,6 +8,7 @@ mod draw;
 mod health;
 mod inputs;
 mod label;
+mod labels;
 mod nerf;
 mod objects;
 mod openapi;
@@ -48,6 +49,7 @@ enum Command {
     Inputs(inputs::Args),
     /// Label objects with the number of views a NeRF of them needs.
     Label(label::Args),
+    Labels(labels::Args),
     /// Train a NeRF on posed images and measure it.
     Nerf(nerf::Args),
     /// List the usable objects in folders and furniture libraries.
@@ -88,6 +90,7 @@ pub fn run() -> ExitCode {
         Command::Health(args) => health::run(&args),
         Command::Inputs(args) => inputs::run(&args),
         Command::Label(args) => label::run(&args),
+        Command::Labels(args) => labels::run(&args),
         Command::Nerf(args) => nerf::run(&args),
         Command::Objects(args) => objects::run(&args),
         Command::Openapi(args) => openapi::run(&args),

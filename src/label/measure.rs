@@ -4,18 +4,19 @@ use std::time::Duration;
 
 use image::RgbaImage;
 
-use super::fit::{CurvePoint, FitError, fit_curve, required_views_sigma};
+use super::fit::FitError;
 use super::protocol::{
-    CEILING_VIEWS, MIN_COVERAGE, PAPER_ALPHA_DB, VIEW_RADIUS_M, label_camera, radius_draws, seed_of,
-    test_directions, view_counts,
+    MIN_COVERAGE, VIEW_RADIUS_M, curve_design, label_camera, radius_draws, seed_of, test_directions,
+    training_directions,
 };
-use super::store::{LabelRecord, LabelStatus};
+use super::reading::{Thresholds, read_label};
+use super::record::{CurveSample, LabelRecord};
 use crate::geometry::{Direction, Point, Pose};
 use crate::imaging::{Camera, PosedImage};
 use crate::nerf::{Bounds, NerfError, NerfSettings, train};
 use crate::objects::ObjectEntry;
 use crate::render::{Mesh, MeshError, RenderSettings, Renderer};
-use crate::views::{Band, ViewSpace, ViewsError, initial_views_five, tammes};
+use crate::views::{Band, ViewSpace, ViewsError, initial_views_five};
 
 /// Why an object got no label.
 #[derive(Debug, thiserror::Error)]
@@ -39,13 +40,16 @@ pub enum LabelError {
 pub struct LabelSettings {
     /// Training of every NeRF; one budget for all view sets and objects, since v* moves with it.
     pub nerf: NerfSettings,
-    /// Seed of the whole run; with the object's key it fixes size, test views and NeRF seeds.
-    pub run_seed: u64,
+    /// Which of the object's sizes: with its key it fixes the radius.
+    pub draw: u64,
+    /// Which measurement of the object at this size: another one has other test views, turns of
+    /// the view sets and NeRF seeds.
+    pub repeat: u64,
 }
 
 impl Default for LabelSettings {
     fn default() -> Self {
-        Self { nerf: NerfSettings::label(), run_seed: 0 }
+        Self { nerf: NerfSettings::label(), draw: 0, repeat: 0 }
     }
 }
 
@@ -60,56 +64,50 @@ pub fn measure(
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<LabelRecord, LabelError> {
     let started = thread_cpu_time();
-    let seed = seed_of(&entry.key, settings.run_seed);
+    let seed = seed_of(&entry.key, settings.draw);
+    let chance = seed_of(&entry.key, settings.draw ^ settings.repeat.wrapping_add(1).rotate_left(32));
     let mesh = entry.load()?;
     let (radius_m, renderer) = sized(&mesh, seed);
     let photographer = Photographer { renderer, render: RenderSettings::default(), camera: label_camera() };
     let tests: Vec<PosedImage> = photographer
-        .take(&test_directions(seed)?)
+        .take(&test_directions(chance)?)
         .iter()
         .enumerate()
         .map(|(k, view)| lattice(view, k))
         .collect();
 
-    let counts = view_counts();
+    let design = curve_design();
+    let nerfs = design.iter().map(|(_, nerfs)| nerfs).sum();
     let bounds = Bounds { center: Point::origin(), half_extent_m: radius_m * 1.02 };
-    let mut psnr_db = Vec::new();
-    for (index, &count) in counts.iter().enumerate() {
-        let photos = photographer.take(&tammes(count, Band::DEFAULT)?.directions);
-        let nerf_settings = NerfSettings { seed: seed.wrapping_add(count as u64), ..settings.nerf };
-        let nerf = train(&photos, &bounds, &nerf_settings, &mut |_| {})?;
-        let each = nerf.psnr_db(&tests);
-        psnr_db.push(each.iter().sum::<f64>() / each.len() as f64);
-        progress(index + 1, counts.len());
+    let mut samples: Vec<CurveSample> = Vec::new();
+    let mut done = 0;
+    for (views, repeats) in design {
+        let mut psnr_db = Vec::new();
+        for k in 0..repeats {
+            let chance = chance.wrapping_add((views + 1000 * k) as u64);
+            let photos = photographer.take(&training_directions(views, chance)?);
+            let nerf_settings = NerfSettings { seed: chance, ..settings.nerf };
+            let nerf = train(&photos, &bounds, &nerf_settings, &mut |_| {})?;
+            let each = nerf.psnr_db(&tests);
+            psnr_db.push(each.iter().sum::<f64>() / each.len() as f64);
+            done += 1;
+            progress(done, nerfs);
+        }
+        samples.push(CurveSample { views, psnr_db });
     }
-
-    let points: Vec<CurvePoint> = counts.iter().zip(&psnr_db).map(|(&v, &p)| (v as f64, p)).collect();
-    let fit = fit_curve(&points)?;
-    let v_star = fit.curve.required_views(PAPER_ALPHA_DB);
     Ok(LabelRecord {
         object: entry.key.clone(),
         name: entry.name.clone(),
         category: entry.category.clone(),
         licence: entry.licence.clone(),
+        draw: settings.draw,
+        repeat: settings.repeat,
         radius_m,
         seed,
-        status: status(&points, v_star),
-        v_star,
-        v_star_sigma: required_views_sigma(&points, &fit, PAPER_ALPHA_DB, seed),
-        curve: fit.curve,
-        rms_db: fit.rms_db,
-        psnr_db,
+        reading: read_label(&samples, Thresholds::default(), seed)?,
+        samples,
         cpu_s: (thread_cpu_time() - started).as_secs_f64(),
     })
-}
-
-fn status(points: &[CurvePoint], v_star: Option<u32>) -> LabelStatus {
-    let ceiling = points.iter().find(|p| p.0 as usize == CEILING_VIEWS).map_or(f64::INFINITY, |p| p.1);
-    match v_star {
-        None => LabelStatus::NoPlateau,
-        Some(_) if points.iter().any(|p| p.1 > ceiling) => LabelStatus::NotConverged,
-        Some(_) => LabelStatus::Ok,
-    }
 }
 
 /// The mesh about the origin at the first drawn radius at which it covers enough of the

@@ -4,10 +4,14 @@
 //! Paper: section "Object-Specific Required Number of Views" and equation 1.
 //!
 //! - [`lognormal`]: the curve family C(v) and the reading of v* off it.
-//! - [`fit`]: orthogonal distance regression of that curve, with the uncertainty of v*.
+//! - [`fit`]: orthogonal distance regression of that curve.
+//! - [`reading`]: both definitions of the label, their noise and the status.
+//! - [`measure`]: the NeRFs; [`record`] and [`store`]: their file.
 
 pub mod fit;
 pub mod lognormal;
 pub mod measure;
 pub mod protocol;
+pub mod reading;
+pub mod record;
 pub mod store;

@@ -5,62 +5,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::lognormal::LogNormalCurve;
-use super::protocol::view_counts;
-
-/// Whether a label can be trusted as the paper's protocol defines it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LabelStatus {
-    /// The curve flattens below the ceiling.
-    Ok,
-    /// Some view set did better than the ceiling of 100 views: the curve has not converged
-    /// to it (the authors drop such objects).
-    NotConverged,
-    /// One more view still pays at [`super::lognormal::MAX_VIEWS`] views.
-    NoPlateau,
-}
-
-impl LabelStatus {
-    /// The word in the file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Ok => "ok",
-            Self::NotConverged => "not_converged",
-            Self::NoPlateau => "no_plateau",
-        }
-    }
-}
-
-/// One finished object.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LabelRecord {
-    /// The object's key, unique among all objects.
-    pub object: String,
-    /// Name for people.
-    pub name: String,
-    /// Category for people.
-    pub category: String,
-    /// Licence of the model.
-    pub licence: String,
-    /// Radius of the object's sphere, metres.
-    pub radius_m: f64,
-    /// The object's seed.
-    pub seed: u64,
-    /// Trust.
-    pub status: LabelStatus,
-    /// v* at the paper's alpha; `None` with [`LabelStatus::NoPlateau`].
-    pub v_star: Option<u32>,
-    /// Standard deviation of v*, views.
-    pub v_star_sigma: f64,
-    /// The fitted curve.
-    pub curve: LogNormalCurve,
-    /// Root mean square residual of the fit, dB.
-    pub rms_db: f64,
-    /// Mean PSNR over the test views for each of [`view_counts`], dB.
-    pub psnr_db: Vec<f64>,
-    /// Thread CPU seconds spent, rendering included.
-    pub cpu_s: f64,
-}
+use super::record::{COLUMNS, LabelRecord};
 
 /// Why labels could not be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -72,6 +17,14 @@ pub enum StoreError {
         path: PathBuf,
         /// What it said.
         source: std::io::Error,
+    },
+    /// A row that is not what the columns say.
+    #[error("{path}, line {line}: not a row of labels")]
+    Row {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
     },
     /// Not a label file, or one of another protocol.
     #[error("{path}: header is {found:?}, must be {expected:?}; give another --out")]
@@ -85,54 +38,15 @@ pub enum StoreError {
     },
 }
 
-/// The columns of `labels.csv`, in order.
-pub fn header() -> Vec<String> {
-    let fixed = [
-        "object",
-        "name",
-        "category",
-        "licence",
-        "radius_m",
-        "seed",
-        "status",
-        "v_star",
-        "v_star_sigma",
-        "y0",
-        "amplitude",
-        "x_c",
-        "width",
-        "rms_db",
-    ];
-    let counts = view_counts();
-    fixed
-        .iter()
-        .map(ToString::to_string)
-        .chain(counts.iter().map(|v| format!("psnr_{v}")))
-        .chain(["cpu_s".to_string()])
-        .collect()
-}
-
-fn row(record: &LabelRecord) -> Vec<String> {
-    let curve = &record.curve;
-    [record.object.clone(), record.name.clone(), record.category.clone(), record.licence.clone()]
-        .into_iter()
-        .chain([format!("{:.5}", record.radius_m), record.seed.to_string(), record.status.word().to_string()])
-        .chain([
-            record.v_star.map_or_else(String::new, |v| v.to_string()),
-            format!("{:.2}", record.v_star_sigma),
-        ])
-        .chain([curve.y0, curve.amplitude, curve.x_c, curve.width, record.rms_db].map(|x| format!("{x:.5}")))
-        .chain(record.psnr_db.iter().map(|x| format!("{x:.4}")))
-        .chain([format!("{:.2}", record.cpu_s)])
-        .collect()
-}
+/// What a row is about: object, size and measurement, as text.
+type RowKey = [String; 3];
 
 /// An open label file. A row reaches the disk in one write before [`Self::append`]
 /// returns, so a killed run loses at most the object it was working on.
 pub struct LabelStore {
     file: File,
     path: PathBuf,
-    finished: HashSet<String>,
+    finished: HashSet<RowKey>,
 }
 
 impl LabelStore {
@@ -152,25 +66,21 @@ impl LabelStore {
         file.seek(SeekFrom::End(0)).map_err(io)?;
         text.truncate(whole);
 
-        let expected = header().join(",");
         let mut store = Self { file, path: path.to_owned(), finished: HashSet::new() };
         match text.lines().next() {
-            None => store.write_row(&header())?,
-            Some(found) if found == expected => {
-                let mut reader = csv::Reader::from_reader(text.as_bytes());
-                store.finished =
-                    reader.records().filter_map(|r| r.ok()?.get(0).map(ToString::to_string)).collect();
-            }
+            None => store.write_row(&COLUMNS)?,
             Some(found) => {
-                return Err(StoreError::Header { path: path.to_owned(), found: found.to_string(), expected });
+                check_header(path, found)?;
+                let mut reader = csv::Reader::from_reader(text.as_bytes());
+                store.finished = reader.records().filter_map(|row| row_key(&row.ok()?)).collect();
             }
         }
         Ok(store)
     }
 
-    /// True when `object` has its row already.
-    pub fn is_finished(&self, object: &str) -> bool {
-        self.finished.contains(object)
+    /// True when this measurement of `object` at this size has its row already.
+    pub fn is_finished(&self, object: &str, draw: u64, repeat: u64) -> bool {
+        self.finished.contains(&[object.to_owned(), draw.to_string(), repeat.to_string()])
     }
 
     /// Number of finished rows.
@@ -188,12 +98,12 @@ impl LabelStore {
     /// # Errors
     /// [`StoreError::Io`].
     pub fn append(&mut self, record: &LabelRecord) -> Result<(), StoreError> {
-        self.write_row(&row(record))?;
-        self.finished.insert(record.object.clone());
+        self.write_row(&record.cells())?;
+        self.finished.insert([record.object.clone(), record.draw.to_string(), record.repeat.to_string()]);
         Ok(())
     }
 
-    fn write_row(&mut self, cells: &[String]) -> Result<(), StoreError> {
+    fn write_row<T: AsRef<[u8]>>(&mut self, cells: &[T]) -> Result<(), StoreError> {
         let io = |source: std::io::Error| StoreError::Io { path: self.path.clone(), source };
         let mut line = csv::WriterBuilder::new().from_writer(Vec::new());
         line.write_record(cells).map_err(|e| io(std::io::Error::other(e)))?;
@@ -202,8 +112,40 @@ impl LabelStore {
     }
 }
 
+/// The finished rows of a label file; a row cut off by a kill is left out.
+///
+/// # Errors
+/// [`StoreError`] when the file cannot be read, has other columns or a malformed row.
+pub fn read_labels(path: &Path) -> Result<Vec<LabelRecord>, StoreError> {
+    let text =
+        std::fs::read_to_string(path).map_err(|source| StoreError::Io { path: path.to_owned(), source })?;
+    let whole = &text[..text.rfind('\n').map_or(0, |end| end + 1)];
+    check_header(path, whole.lines().next().unwrap_or_default())?;
+    let mut rows = Vec::new();
+    for (index, row) in csv::Reader::from_reader(whole.as_bytes()).records().enumerate() {
+        let record = row.ok().and_then(|row| LabelRecord::from_cells(&row.iter().collect::<Vec<_>>()));
+        rows.push(record.ok_or_else(|| StoreError::Row { path: path.to_owned(), line: index + 2 })?);
+    }
+    Ok(rows)
+}
+
+fn check_header(path: &Path, found: &str) -> Result<(), StoreError> {
+    let expected = COLUMNS.join(",");
+    if found == expected {
+        return Ok(());
+    }
+    Err(StoreError::Header { path: path.to_owned(), found: found.to_string(), expected })
+}
+
+fn row_key(row: &csv::StringRecord) -> Option<RowKey> {
+    let column = |name| COLUMNS.iter().position(|&c| c == name).and_then(|at| row.get(at));
+    Some([column("object")?.to_owned(), column("draw")?.to_owned(), column("repeat")?.to_owned()])
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::lognormal::LogNormalCurve;
+    use super::super::record::{CurveSample, LabelStatus, Reading};
     use super::*;
 
     fn record(object: &str) -> LabelRecord {
@@ -212,14 +154,20 @@ mod tests {
             name: "Chair, wooden".into(),
             category: "Seats".into(),
             licence: "CC-BY 3.0".into(),
+            draw: 0,
+            repeat: 0,
             radius_m: 0.1,
             seed: 5,
-            status: LabelStatus::Ok,
-            v_star: Some(31),
-            v_star_sigma: 1.5,
-            curve: LogNormalCurve { y0: 12.0, amplitude: 20.0, x_c: 6.0, width: 0.9 },
-            rms_db: 0.2,
-            psnr_db: vec![25.0; view_counts().len()],
+            reading: Reading {
+                status: LabelStatus::Ok,
+                v_star: Some(31),
+                v_star_sigma: 1.5,
+                v_near: 25,
+                v_near_sigma: 1.0,
+                curve: LogNormalCurve { y0: 12.0, amplitude: 20.0, x_c: 6.0, width: 0.9 },
+                rms_db: 0.2,
+            },
+            samples: vec![CurveSample { views: 3, psnr_db: vec![25.0, 25.5] }],
             cpu_s: 40.0,
         }
     }
@@ -230,11 +178,11 @@ mod tests {
         let path = dir.path().join("labels.csv");
         LabelStore::open(&path).unwrap().append(&record("a")).unwrap();
         let mut store = LabelStore::open(&path).unwrap();
-        assert!(store.is_finished("a") && !store.is_finished("b"));
+        assert!(store.is_finished("a", 0, 0) && !store.is_finished("b", 0, 0));
         store.append(&record("b")).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(text.lines().count(), 3);
-        let columns = header().len();
+        let columns = COLUMNS.len();
         for row in csv::Reader::from_reader(text.as_bytes()).records() {
             assert_eq!(row.unwrap().len(), columns);
         }
@@ -251,9 +199,34 @@ mod tests {
         let text = std::fs::read_to_string(&path).unwrap();
         std::fs::write(&path, &text[..text.len() - 20]).unwrap();
         let mut store = LabelStore::open(&path).unwrap();
-        assert!(store.is_finished("a") && !store.is_finished("b"));
+        assert!(store.is_finished("a", 0, 0) && !store.is_finished("b", 0, 0));
         store.append(&record("b")).unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+    }
+
+    #[test]
+    fn sizes_and_repeats_of_an_object_are_rows_of_their_own_and_come_back_as_written() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("labels.csv");
+        let rows = [record("a"), LabelRecord { draw: 1, ..record("a") }, record("b, with a comma")];
+        let mut store = LabelStore::open(&path).unwrap();
+        for row in &rows {
+            store.append(row).unwrap();
+        }
+        let reopened = LabelStore::open(&path).unwrap();
+        assert!(reopened.is_finished("a", 1, 0) && reopened.is_finished("b, with a comma", 0, 0));
+        assert!(!reopened.is_finished("a", 0, 1));
+        assert_eq!(read_labels(&path).unwrap(), rows);
+    }
+
+    #[test]
+    fn a_malformed_row_is_named() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("labels.csv");
+        LabelStore::open(&path).unwrap().append(&record("a")).unwrap();
+        let broken = std::fs::read_to_string(&path).unwrap().replace("3:25.0000/25.5000", "3;25");
+        std::fs::write(&path, broken).unwrap();
+        assert!(matches!(read_labels(&path), Err(StoreError::Row { line: 2, .. })));
     }
 
     #[test]

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import INITIAL_IMAGES, MAX_IMAGES, baseline, crossval, labels, metrics
+from . import INITIAL_IMAGES, MAX_IMAGES, baseline, crossval, labels, metrics, repeatability
 from .onnx_model import OnnxModel
 from .sources import Photos, all_subsets
 
@@ -28,7 +28,7 @@ def status_line(path: Path) -> str:
 
 
 def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path, crossval_csv: Path | None) -> str:
-    rows = labels.read(labels_path, inputs, config["statuses"].split(","))
+    rows = labels.read(labels_path, inputs, config["statuses"].split(","), config.get("target", "v_star"))
     by_id = {row.id: row for row in rows}
     train, validation, test = ([by_id[id] for id in config["rows"][part]] for part in ("train", "validation", "test"))
     truth, groups = np.array([row.views for row in test]), [row.group for row in test]
@@ -94,12 +94,15 @@ def main(argv=None):
     parser.add_argument("--labels", type=Path, help="default: what the run was trained on")
     parser.add_argument("--inputs", type=Path, help="default: what the run was trained on")
     parser.add_argument("--crossval", type=Path, help="crossval.csv of prvnet.crossval")
+    parser.add_argument("--repeats", type=Path, help="labels of the same objects measured again")
     parser.add_argument("--card", type=Path, help="the file to update; without it the figures are only printed")
     args = parser.parse_args(argv)
     config = json.loads((args.run / "config.json").read_text())
     where = json.loads((args.run / "where.json").read_text())
     labels_path, inputs = args.labels or Path(where["labels"]), args.inputs or Path(where["inputs"])
     text = figures(OnnxModel(args.model), config, labels_path, inputs, args.crossval)
+    if args.repeats and args.repeats.is_file():
+        text += "\n\n" + "\n".join(repeatability.lines(labels_path, args.repeats))
     print(text)
     if args.card:
         update(args.card, text)

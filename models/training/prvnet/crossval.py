@@ -21,7 +21,7 @@ COLUMNS = ("row", "object", "group", "truth", "network", "median", "statistics")
 
 
 def table(args) -> list[dict]:
-    rows = labels.read(args.labels, args.inputs, args.statuses.split(","))
+    rows = labels.read(args.labels, args.inputs, args.statuses.split(","), args.target)
     out, result = args.out, []
     for turn in range(TURNS):
         known, validation, test = split(rows, turn)

@@ -13,6 +13,9 @@ from .splits import group_of
 # What makes a row of labels.csv one of a kind, as text, so that no rounding can separate the two files.
 KEY_COLUMNS = ("object", "radius_m", "seed")
 
+# What can be predicted: the paper's definition, and how many views come near the object's own best.
+TARGETS = ("v_star", "v_near")
+
 
 @dataclass(frozen=True)
 class Row:
@@ -25,19 +28,19 @@ class Row:
     """What splits go by: the object without size and variant."""
     radius_m: float
     views: float
-    """v*: the views it needs."""
+    """The label: the views it needs."""
     sigma: float
     """Standard deviation of `views`."""
 
 
-def read(labels: Path, inputs: Path, statuses=("ok",)) -> list[Row]:
+def read(labels: Path, inputs: Path, statuses=("ok",), target="v_star") -> list[Row]:
     """The rows that have a label of one of `statuses` and a full set of crops, ordered by id."""
     with open(inputs / "index.csv", newline="") as file:
         ids = {tuple(line[column] for column in KEY_COLUMNS): line["row"] for line in csv.DictReader(file)}
     rows, without_crops = [], 0
     with open(labels, newline="") as file:
         for line in csv.DictReader(file):
-            if line["status"] not in statuses or not line["v_star"]:
+            if line["status"] not in statuses or not line[target]:
                 continue
             id = ids.get(tuple(line[column] for column in KEY_COLUMNS))
             if id is None or not all((inputs / id / f"{k}.png").is_file() for k in range(MAX_IMAGES)):
@@ -49,8 +52,8 @@ def read(labels: Path, inputs: Path, statuses=("ok",)) -> list[Row]:
                     object=line["object"],
                     group=group_of(line["object"]),
                     radius_m=float(line["radius_m"]),
-                    views=float(line["v_star"]),
-                    sigma=float(line["v_star_sigma"] or 0.0),
+                    views=float(line[target]),
+                    sigma=float(line[f"{target}_sigma"] or 0.0),
                 )
             )
     if without_crops:

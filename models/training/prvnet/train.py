@@ -36,6 +36,7 @@ def arguments(argv=None):
     add("--size", type=int, default=224, help="side of the input images, pixels")
     add("--images", choices=("1-5", "3"), default="1-5", help="initial images of a training sample")
     add("--range", choices=("labels", "paper"), default="labels", help="the sigmoid's range")
+    add("--target", choices=labels.TARGETS, default="v_star", help="which label to learn")
     add("--statuses", default="ok", help="label statuses to train on, by commas")
     add("--freeze", action=argparse.BooleanOptionalAction, default=None,
         help="leave the encoder as it is (default for encoders with ImageNet weights)")  # fmt: skip
@@ -66,7 +67,7 @@ def configuration(args, train, validation, test) -> dict:
     views = [row.views for row in train]
     low, high = PAPER_RANGE if args.range == "paper" else (int(min(views)), int(max(views)))
     chosen = ("encoder", "levels", "head", "heads", "size", "images", "freeze", "variants", "epochs", "batch")
-    rates = ("lr", "encoder_lr", "weight_decay", "weight_by_sigma", "turn", "seed", "statuses")
+    rates = ("lr", "encoder_lr", "weight_decay", "weight_by_sigma", "turn", "seed", "statuses", "target")
     return {
         **{key: getattr(args, key) for key in chosen + rates},
         "range": [low, max(high, low + 1)],
@@ -138,7 +139,7 @@ def epoch_of(network, source, rows, args, epoch, optimizer, scheduler, device) -
 def train(args) -> dict:
     torch.set_num_threads(args.threads)
     torch.manual_seed(args.seed)
-    rows = labels.read(args.labels, args.inputs, args.statuses.split(","))
+    rows = labels.read(args.labels, args.inputs, args.statuses.split(","), args.target)
     parts = split(rows, args.turn)
     train_rows, validation_rows, test_rows = parts
     if len(train_rows) < 2 or not validation_rows:

@@ -8,7 +8,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic
-from prvnet import augment, baseline, labels, metrics, splits
+from prvnet import augment, baseline, labels, metrics, repeatability, splits
 
 
 @pytest.fixture(scope="module")
@@ -103,3 +103,24 @@ def test_image_statistics_see_the_detail_that_the_labels_come_from(data):
         errors.extend(np.abs(baseline.evaluate(data / "inputs", rows, turn) - truth))
         constant.extend(np.abs(np.median(known) - truth))
     assert np.mean(errors) < 0.5 * np.mean(constant)
+
+
+def test_two_measurements_are_compared_where_both_files_have_the_object(data, tmp_path):
+    lines = (data / "labels.csv").read_text().splitlines()
+    columns = lines[0].split(",")
+    again = [lines[0]]
+    for line in lines[1:31]:
+        cells = dict(zip(columns, line.split(",")))
+        if cells["v_star"]:
+            cells["v_star"] = str(int(cells["v_star"]) + 2)
+        again.append(",".join(cells[column] for column in columns))
+    (tmp_path / "again.csv").write_text("\n".join(again))
+    both = repeatability.pairs(data / "labels.csv", tmp_path / "again.csv", "v_star")
+    assert len(both) == 29 and set(both[:, 1] - both[:, 0]) == {2.0}
+    table = repeatability.lines(data / "labels.csv", tmp_path / "again.csv")
+    assert "| 29 | 2.0 views |" in table[2] and "| 0.0 views |" in table[3]
+
+
+def test_the_target_chooses_the_column(data):
+    star, near = (labels.read(data / "labels.csv", data / "inputs", target=target) for target in labels.TARGETS)
+    assert [row.views - 8 for row in star] == [row.views for row in near]

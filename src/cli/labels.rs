@@ -1,0 +1,60 @@
+//! `prv labels`: joins label files and reads their curves again.
+
+use std::path::PathBuf;
+
+use prv::label::protocol::{NEAR_DB, PAPER_ALPHA_DB};
+use prv::label::reading::{Thresholds, read_label};
+use prv::label::store::{LabelStore, read_labels};
+
+use super::CliResult;
+
+/// Join label files (shards of `prv label`) and read the labels off their curves again.
+///
+/// Trains nothing: the PSNR of every NeRF is in the files. A row that several files have is taken from the first.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Label files.
+    #[arg(required = true, env = "PRV_LABEL_FILES", value_delimiter = ',')]
+    files: Vec<PathBuf>,
+    /// File to write; rows it has already stay.
+    #[arg(long, env = "PRV_LABELS")]
+    out: PathBuf,
+    /// v* is where one more view brings less than this, dB.
+    #[arg(long, env = "PRV_ALPHA", default_value_t = PAPER_ALPHA_DB)]
+    alpha: f64,
+    /// v_near is where the curve comes this close to its value at 100 views, dB.
+    #[arg(long, env = "PRV_NEAR", default_value_t = NEAR_DB)]
+    near: f64,
+    /// Print JSON.
+    #[arg(long, env = "PRV_JSON")]
+    json: bool,
+}
+
+/// Joins and reads.
+pub fn run(args: &Args) -> CliResult {
+    for (name, value) in [("alpha", args.alpha), ("near", args.near)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(format!("--{name} is {value}, must be greater than 0 dB").into());
+        }
+    }
+    let thresholds = Thresholds { alpha_db: args.alpha, near_db: args.near };
+    let mut store = LabelStore::open(&args.out)?;
+    let (before, mut twice) = (store.len(), 0);
+    for file in &args.files {
+        for mut record in read_labels(file)? {
+            if store.is_finished(&record.object, record.draw, record.repeat) {
+                twice += 1;
+                continue;
+            }
+            record.reading = read_label(&record.samples, thresholds, record.seed)?;
+            store.append(&record)?;
+        }
+    }
+    let added = store.len() - before;
+    if args.json {
+        println!("{}", serde_json::json!({ "rows": store.len(), "added": added, "already_there": twice }));
+    } else {
+        println!("{}: {} rows, {added} added, {twice} already there", args.out.display(), store.len());
+    }
+    Ok(())
+}

@@ -1,0 +1,229 @@
+//! One finished object, and the row it is in `labels.csv`.
+
+use super::fit::CurvePoint;
+use super::lognormal::LogNormalCurve;
+
+/// Whether a label can be trusted as the paper's protocol defines it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LabelStatus {
+    /// The curve flattens below the ceiling.
+    Ok,
+    /// Some smaller view set did better than the ceiling of 100 views by more than the noise
+    /// of the two (the authors drop objects with any better set).
+    NotConverged,
+    /// One more view still pays at [`super::lognormal::MAX_VIEWS`] views.
+    NoPlateau,
+}
+
+impl LabelStatus {
+    /// The word in the file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::NotConverged => "not_converged",
+            Self::NoPlateau => "no_plateau",
+        }
+    }
+
+    /// The status of a word in the file.
+    pub fn from_word(word: &str) -> Option<Self> {
+        [Self::Ok, Self::NotConverged, Self::NoPlateau].into_iter().find(|status| status.word() == word)
+    }
+}
+
+/// All NeRFs of one number of views.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurveSample {
+    /// Training views.
+    pub views: usize,
+    /// Mean PSNR over the test views of each NeRF, dB.
+    pub psnr_db: Vec<f64>,
+}
+
+impl CurveSample {
+    /// Mean over the NeRFs, dB.
+    pub fn mean_db(&self) -> f64 {
+        self.psnr_db.iter().sum::<f64>() / self.psnr_db.len().max(1) as f64
+    }
+}
+
+/// What a curve says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// Trust.
+    pub status: LabelStatus,
+    /// v*: from here on one more view brings less than alpha; `None` with [`LabelStatus::NoPlateau`].
+    pub v_star: Option<u32>,
+    /// Standard deviation of v*, views.
+    pub v_star_sigma: f64,
+    /// Fewest views that come near the object's own ceiling.
+    pub v_near: u32,
+    /// Its standard deviation, views.
+    pub v_near_sigma: f64,
+    /// The fitted curve.
+    pub curve: LogNormalCurve,
+    /// Root mean square residual of the fit, dB.
+    pub rms_db: f64,
+}
+
+/// One finished object at one size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelRecord {
+    /// The object's key, unique among all objects.
+    pub object: String,
+    /// Name for people.
+    pub name: String,
+    /// Category for people.
+    pub category: String,
+    /// Licence of the model.
+    pub licence: String,
+    /// Which of the object's sizes.
+    pub draw: u64,
+    /// Which measurement of this object at this size.
+    pub repeat: u64,
+    /// Radius of the object's sphere, metres.
+    pub radius_m: f64,
+    /// Seed of the object at this size.
+    pub seed: u64,
+    /// What the samples say.
+    pub reading: Reading,
+    /// Every NeRF.
+    pub samples: Vec<CurveSample>,
+    /// Thread CPU seconds spent, rendering included.
+    pub cpu_s: f64,
+}
+
+/// The columns of `labels.csv`, in order.
+pub const COLUMNS: [&str; 20] = [
+    "object",
+    "name",
+    "category",
+    "licence",
+    "draw",
+    "repeat",
+    "radius_m",
+    "seed",
+    "status",
+    "v_star",
+    "v_star_sigma",
+    "v_near",
+    "v_near_sigma",
+    "y0",
+    "amplitude",
+    "x_c",
+    "width",
+    "rms_db",
+    "psnr_db",
+    "cpu_s",
+];
+
+impl LabelRecord {
+    /// The cells of [`COLUMNS`].
+    pub fn cells(&self) -> Vec<String> {
+        let Reading { status, v_star, v_star_sigma, v_near, v_near_sigma, curve, rms_db } = &self.reading;
+        let text = [&self.object, &self.name, &self.category, &self.licence];
+        let numbers = [curve.y0, curve.amplitude, curve.x_c, curve.width, *rms_db];
+        text.into_iter()
+            .cloned()
+            .chain([self.draw.to_string(), self.repeat.to_string()])
+            .chain([format!("{:.5}", self.radius_m), self.seed.to_string(), status.word().to_owned()])
+            .chain([v_star.map_or_else(String::new, |v| v.to_string()), format!("{v_star_sigma:.2}")])
+            .chain([v_near.to_string(), format!("{v_near_sigma:.2}")])
+            .chain(numbers.map(|x| format!("{x:.5}")))
+            .chain([samples_text(&self.samples), format!("{:.2}", self.cpu_s)])
+            .collect()
+    }
+}
+
+impl LabelRecord {
+    /// The record of a row's cells; `None` where they are not those of [`COLUMNS`].
+    pub fn from_cells(cells: &[&str]) -> Option<LabelRecord> {
+        let cells: &[&str; COLUMNS.len()] = cells.try_into().ok()?;
+        let [object, name, category, licence, draw, repeat, radius_m, seed, status, ..] =
+            cells.map(str::to_owned);
+        let [
+            ..,
+            v_star,
+            v_star_sigma,
+            v_near,
+            v_near_sigma,
+            y0,
+            amplitude,
+            x_c,
+            width,
+            rms_db,
+            psnr_db,
+            cpu_s,
+        ] = *cells;
+        let number = |text: &str| text.parse::<f64>().ok();
+        let v_star = if v_star.is_empty() { None } else { Some(v_star.parse().ok()?) };
+        let curve = LogNormalCurve {
+            y0: number(y0)?,
+            amplitude: number(amplitude)?,
+            x_c: number(x_c)?,
+            width: number(width)?,
+        };
+        let reading = Reading {
+            status: LabelStatus::from_word(&status)?,
+            v_star,
+            v_star_sigma: number(v_star_sigma)?,
+            v_near: v_near.parse().ok()?,
+            v_near_sigma: number(v_near_sigma)?,
+            curve,
+            rms_db: number(rms_db)?,
+        };
+        Some(LabelRecord {
+            object,
+            name,
+            category,
+            licence,
+            draw: draw.parse().ok()?,
+            repeat: repeat.parse().ok()?,
+            radius_m: number(&radius_m)?,
+            seed: seed.parse().ok()?,
+            reading,
+            samples: samples_from_text(psnr_db)?,
+            cpu_s: number(cpu_s)?,
+        })
+    }
+}
+
+/// `3:25.9381/25.8012 5:31.9380/31.8755 ...`: views, then the PSNR of each NeRF.
+pub fn samples_text(samples: &[CurveSample]) -> String {
+    let sample = |s: &CurveSample| {
+        let each: Vec<String> = s.psnr_db.iter().map(|x| format!("{x:.4}")).collect();
+        format!("{}:{}", s.views, each.join("/"))
+    };
+    samples.iter().map(sample).collect::<Vec<_>>().join(" ")
+}
+
+/// Reads what [`samples_text`] writes; `None` where a number is missing or malformed.
+pub fn samples_from_text(text: &str) -> Option<Vec<CurveSample>> {
+    let sample = |word: &str| {
+        let (views, each) = word.split_once(':')?;
+        let psnr_db = each.split('/').map(|x| x.parse().ok()).collect::<Option<Vec<f64>>>()?;
+        Some(CurveSample { views: views.parse().ok()?, psnr_db })
+    };
+    text.split_whitespace().map(sample).collect()
+}
+
+/// The points a curve is fitted to: one a NeRF.
+pub fn curve_points(samples: &[CurveSample]) -> Vec<CurvePoint> {
+    samples.iter().flat_map(|s| s.psnr_db.iter().map(|&psnr| (s.views as f64, psnr))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_survive_their_text() {
+        let samples = vec![
+            CurveSample { views: 3, psnr_db: vec![25.9381, 26.0] },
+            CurveSample { views: 100, psnr_db: vec![38.5] },
+        ];
+        assert_eq!(samples_text(&samples), "3:25.9381/26.0000 100:38.5000");
+        assert_eq!(samples_from_text(&samples_text(&samples)), Some(samples));
+        assert_eq!(samples_from_text("3:25.9 5;31"), None);
+    }
+}
