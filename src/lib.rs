@@ -26,4 +26,6 @@ pub mod plan;
 pub mod label;
 pub mod simulate;
 
+pub mod evaluate;
+
 pub mod api;

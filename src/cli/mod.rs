@@ -5,6 +5,7 @@ mod capture;
 mod check;
 mod check_random;
 mod draw;
+mod evaluate;
 mod health;
 mod inputs;
 mod label;
@@ -50,6 +51,7 @@ enum Command {
     /// Label objects with the number of views a NeRF of them needs.
     Label(label::Args),
     Labels(labels::Args),
+    Evaluate(evaluate::Args),
     /// Train a NeRF on posed images and measure it.
     Nerf(nerf::Args),
     /// List the usable objects in folders and furniture libraries.
@@ -91,6 +93,7 @@ pub fn run() -> ExitCode {
         Command::Inputs(args) => inputs::run(&args),
         Command::Label(args) => label::run(&args),
         Command::Labels(args) => labels::run(&args),
+        Command::Evaluate(args) => evaluate::run(&args),
         Command::Nerf(args) => nerf::run(&args),
         Command::Objects(args) => objects::run(&args),
         Command::Openapi(args) => openapi::run(&args),

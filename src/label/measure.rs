@@ -2,21 +2,19 @@
 
 use std::time::Duration;
 
-use image::RgbaImage;
-
 use super::fit::FitError;
+use super::photograph::{Photographer, lattice, pose};
 use super::protocol::{
-    MIN_COVERAGE, VIEW_RADIUS_M, curve_design, label_camera, radius_draws, seed_of, test_directions,
-    training_directions,
+    MIN_COVERAGE, curve_design, radius_draws, seed_of, test_directions, training_directions,
 };
 use super::reading::{Thresholds, read_label};
 use super::record::{CurveSample, LabelRecord};
-use crate::geometry::{Direction, Point, Pose};
+use crate::geometry::{Direction, Point};
 use crate::imaging::{Camera, PosedImage};
 use crate::nerf::{Bounds, NerfError, NerfSettings, train};
 use crate::objects::ObjectEntry;
 use crate::render::{Mesh, MeshError, RenderSettings, Renderer};
-use crate::views::{Band, ViewSpace, ViewsError, initial_views_five};
+use crate::views::{ViewsError, initial_views_five};
 
 /// Why an object got no label.
 #[derive(Debug, thiserror::Error)]
@@ -68,7 +66,7 @@ pub fn measure(
     let chance = seed_of(&entry.key, settings.draw ^ settings.repeat.wrapping_add(1).rotate_left(32));
     let mesh = entry.load()?;
     let (radius_m, renderer) = sized(&mesh, seed);
-    let photographer = Photographer { renderer, render: RenderSettings::default(), camera: label_camera() };
+    let photographer = Photographer::new(renderer);
     let tests: Vec<PosedImage> = photographer
         .take(&test_directions(chance)?)
         .iter()
@@ -146,52 +144,6 @@ fn coverage(renderer: &Renderer) -> f64 {
     shares.sum::<f64>() / directions.len() as f64
 }
 
-fn pose(direction: &Direction) -> Pose {
-    let space = ViewSpace { center_in_base: Point::origin(), radius_m: VIEW_RADIUS_M, band: Band::DEFAULT };
-    space.pose(direction, 0.0)
-}
-
-/// Every second pixel of every second row of a test view, and the camera that sees just those
-/// pixels. PSNR is a mean over pixels, so a quarter of them, spread evenly, estimates it at a
-/// quarter of the cost; which quarter goes round with `index`.
-fn lattice(view: &PosedImage, index: usize) -> PosedImage {
-    let (shift_x, shift_y) = ((index % 2) as u32, (index / 2 % 2) as u32);
-    let full = view.camera;
-    let (width, height) = (full.width / 2, full.height / 2);
-    let halved = |center: f64, shift: u32| (center - f64::from(shift) - 0.5) / 2.0 + 0.5;
-    let camera = Camera {
-        width,
-        height,
-        fx: full.fx / 2.0,
-        fy: full.fy / 2.0,
-        cx: halved(full.cx, shift_x),
-        cy: halved(full.cy, shift_y),
-        ..full
-    };
-    let image =
-        RgbaImage::from_fn(width, height, |x, y| *view.image.get_pixel(2 * x + shift_x, 2 * y + shift_y));
-    PosedImage { image, camera, world_from_camera: view.world_from_camera }
-}
-
-struct Photographer {
-    renderer: Renderer,
-    render: RenderSettings,
-    camera: Camera,
-}
-
-impl Photographer {
-    fn take(&self, directions: &[Direction]) -> Vec<PosedImage> {
-        directions
-            .iter()
-            .map(|direction| {
-                let world_from_camera = pose(direction);
-                let image = self.renderer.render(&self.camera, &world_from_camera, &self.render);
-                PosedImage { image, camera: self.camera, world_from_camera }
-            })
-            .collect()
-    }
-}
-
 /// CPU time of this thread: what a label costs, however busy the machine is. On systems
 /// without a thread clock it is wall time.
 fn thread_cpu_time() -> Duration {
@@ -204,28 +156,5 @@ fn thread_cpu_time() -> Duration {
     {
         static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
         START.get_or_init(std::time::Instant::now).elapsed()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_lattice_camera_sees_the_pixels_it_was_given() {
-        let camera = label_camera();
-        let image =
-            RgbaImage::from_fn(camera.width, camera.height, |x, y| image::Rgba([x as u8, y as u8, 0, 255]));
-        let view = PosedImage { image, camera, world_from_camera: Pose::identity() };
-        for index in 0..4 {
-            let half = lattice(&view, index);
-            for (x, y) in [(0, 0), (17, 40), (63, 63)] {
-                let [full_x, full_y, ..] = half.image.get_pixel(x, y).0;
-                let center = |p: u32| f64::from(p) + 0.5;
-                let seen = half.camera.ray_in_camera([center(x), center(y)].into());
-                let meant = camera.ray_in_camera([center(full_x.into()), center(full_y.into())].into());
-                assert!((seen - meant).norm() < 1e-12, "{index}: {seen} {meant}");
-            }
-        }
     }
 }

@@ -11,6 +11,7 @@
 pub mod fit;
 pub mod lognormal;
 pub mod measure;
+pub(crate) mod photograph;
 pub mod protocol;
 pub mod reading;
 pub mod record;

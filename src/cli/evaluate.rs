@@ -1,0 +1,167 @@
+//! `prv evaluate`: reproduces the paper's tables on held-out objects.
+
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use prv::evaluate::counts::Statistics;
+use prv::evaluate::held_out::is_held_out;
+use prv::evaluate::plot::bars;
+use prv::evaluate::store::TrialStore;
+use prv::evaluate::table_one::TableOne;
+use prv::evaluate::trial::reconstruct;
+use prv::label::record::LabelRecord;
+use prv::label::store::read_labels;
+use prv::nerf::NerfSettings;
+use prv::objects::{ObjectEntry, ObjectLookup};
+use prv::predict::{Predictor, model_bytes};
+
+use super::CliResult;
+
+/// Reproduce tables of the paper on objects the network has not seen.
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(subcommand)]
+    table: Table,
+}
+
+#[derive(clap::Subcommand)]
+enum Table {
+    Table1(TableOneArgs),
+}
+
+/// Compare PRVNet with mode, median and mean of the labels: Table I.
+///
+/// Reconstructs each held-out object with the number of views of every method, and compares with the result of its
+/// own label: PSNR, SSIM and movement. Writes trials.csv (resumable), table1.csv, table1.md and table1.svg.
+#[derive(clap::Args)]
+struct TableOneArgs {
+    /// Folders or files where the labelled objects are (.sh3f libraries, OBJ, glTF); made objects need none.
+    #[arg(long, env = "PRV_OBJECTS", num_args = 1..)]
+    objects: Vec<String>,
+    /// Label file of `prv label`.
+    #[arg(long, env = "PRV_LABELS", default_value = "models/labels.csv")]
+    labels: PathBuf,
+    /// Another model than the one in the executable.
+    #[arg(long, env = "PRV_MODEL")]
+    model: Option<PathBuf>,
+    /// Folder to write to.
+    #[arg(long, env = "PRV_OUT")]
+    out: PathBuf,
+    /// At most this many objects.
+    #[arg(long, env = "PRV_LIMIT", default_value_t = 250)]
+    limit: usize,
+    /// Objects side by side, one thread each; 0 for one a core.
+    #[arg(long, env = "PRV_JOBS", default_value_t = 1)]
+    jobs: usize,
+    /// Print the table as JSON.
+    #[arg(long, env = "PRV_JSON")]
+    json: bool,
+}
+
+/// Runs the comparison.
+pub fn run(args: &Args) -> CliResult {
+    let Table::Table1(args) = &args.table;
+    let records = read_labels(&args.labels)?;
+    let (held_out, known): (Vec<LabelRecord>, Vec<LabelRecord>) = records.into_iter().partition(is_held_out);
+    let labels: Vec<u32> = known.iter().filter_map(|record| record.reading.v_star).collect();
+    let statistics = Statistics::of(&labels)
+        .ok_or_else(|| format!("{}: no label of a training object", args.labels.display()))?;
+    let objects = ObjectLookup::new(&args.objects)?;
+    std::fs::create_dir_all(&args.out)?;
+    let store = TrialStore::open(&args.out.join("trials.csv"))?;
+    let work: Vec<(ObjectEntry, &LabelRecord)> = held_out
+        .iter()
+        .filter(|record| record.reading.v_star.is_some())
+        .filter_map(|record| Some((objects.get(&record.object)?, record)))
+        .take(args.limit)
+        .filter(|(_, record)| !store.is_finished(&record.object, record.draw))
+        .collect();
+    let jobs = match args.jobs {
+        0 => std::thread::available_parallelism()?.get(),
+        jobs => jobs,
+    };
+    let predictor = Predictor::load(&model_bytes(args.model.as_deref())?, 1, jobs)?;
+    eprintln!(
+        "{} held-out labels, {} objects to reconstruct, {} done",
+        held_out.len(),
+        work.len(),
+        store.trials().len()
+    );
+    let bar = ProgressBar::new(work.len() as u64).with_style(ProgressStyle::with_template(
+        "{elapsed_precise} [{wide_bar}] {pos}/{len} objects, {eta_precise} left",
+    )?);
+    let (next, store) = (AtomicUsize::new(0), Mutex::new(store));
+    let worker = || -> Result<(), String> {
+        while let Some((entry, record)) = work.get(next.fetch_add(1, Ordering::Relaxed)) {
+            match reconstruct(entry, record, &statistics, &predictor, &NerfSettings::label()) {
+                Ok(trial) => {
+                    let mut store = store.lock().map_err(|e| e.to_string())?;
+                    store.append(trial).map_err(|e| e.to_string())?;
+                }
+                Err(error) => bar.suspend(|| eprintln!("{}: {error}", record.object)),
+            }
+            bar.inc(1);
+        }
+        Ok(())
+    };
+    let outcomes: Vec<Result<(), String>> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(worker)).collect();
+        workers
+            .into_iter()
+            .map(|handle| handle.join().unwrap_or_else(|_| Err("a worker panicked".into())))
+            .collect()
+    });
+    bar.finish_and_clear();
+    outcomes.into_iter().collect::<Result<(), String>>()?;
+    let store = store.into_inner().map_err(|e| e.to_string())?;
+    report(args, &TableOne::of(store.trials()))
+}
+
+fn report(args: &TableOneArgs, table: &TableOne) -> CliResult {
+    let markdown = table.markdown();
+    std::fs::write(args.out.join("table1.md"), &markdown)?;
+    std::fs::write(args.out.join("table1.svg"), bars(table))?;
+    let mut csv = csv::Writer::from_path(args.out.join("table1.csv"))?;
+    csv.write_record([
+        "method",
+        "objects",
+        "mean_views",
+        "psnr_difference_db",
+        "psnr_sd_db",
+        "psnr_p",
+        "ssim_difference",
+        "ssim_sd",
+        "ssim_p",
+        "movement_difference_m",
+        "movement_sd_m",
+        "movement_p",
+    ])?;
+    for row in &table.rows {
+        let mut cells =
+            vec![row.method.word().to_owned(), table.objects.to_string(), format!("{:.2}", row.views.1)];
+        for cell in &row.cells {
+            let p = cell.p_value.map_or_else(String::new, |p| format!("{p:.4}"));
+            cells.extend([format!("{:.6}", cell.mean), format!("{:.6}", cell.deviation), p]);
+        }
+        csv.write_record(cells)?;
+    }
+    csv.flush()?;
+    if args.json {
+        let rows: Vec<_> = table.rows.iter().map(|row| {
+            let cell = |k: usize| serde_json::json!({
+                "mean": row.cells[k].mean, "deviation": row.cells[k].deviation, "p_value": row.cells[k].p_value,
+            });
+            serde_json::json!({
+                "method": row.method.word(), "views_min": row.views.0, "views_mean": row.views.1,
+                "views_max": row.views.2, "psnr_difference_db": cell(0), "ssim_difference": cell(1),
+                "movement_difference_m": cell(2),
+            })
+        }).collect();
+        println!("{:#}", serde_json::json!({ "objects": table.objects, "rows": rows }));
+    } else {
+        print!("{markdown}");
+    }
+    Ok(())
+}
