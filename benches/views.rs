@@ -5,7 +5,7 @@ mod common;
 use std::hint::black_box;
 
 use common::{median_time, row};
-use prv::api::{PlanRequestJson, Planner, parse_json, reachability_of};
+use prv::api::{PlanRequestJson, Planner, ResolvedRequest, parse_json, reachability_of};
 use prv::views::{Band, best_known_rad, tammes};
 
 /// Least separation asked for on the closed hemisphere, degrees.
@@ -57,7 +57,8 @@ fn adaptation() {
                 "object": {{"center": [0.45, 0.0, 0.1], "radius": 0.1, "table_z": 0.0}},
                 "flange_from_camera": {{"position": [0, 0, 0.05], "orientation": [0, 0, 0, 1]}}}}"#
         );
-        let Ok(request) = parse_json::<PlanRequestJson>(text.as_bytes()) else { continue };
+        let Ok(json) = parse_json::<PlanRequestJson>(text.as_bytes()) else { continue };
+        let request = ResolvedRequest::from(json);
         let mut times: Vec<f64> =
             (0..11).filter_map(|_| planner.plan(&request).ok()?.timings_ms.get("adapt").copied()).collect();
         times.sort_by(f64::total_cmp);
