@@ -58,14 +58,14 @@ fn adaptation() {
                 "flange_from_camera": {{"position": [0, 0, 0.05], "orientation": [0, 0, 0, 1]}}}}"#
         );
         let Ok(json) = parse_json::<PlanRequestJson>(text.as_bytes()) else { continue };
-        let request = ResolvedRequest::from(json);
+        let request = ResolvedRequest::from(json.clone());
         let mut times: Vec<f64> =
             (0..11).filter_map(|_| planner.plan(&request).ok()?.timings_ms.get("adapt").copied()).collect();
         times.sort_by(f64::total_cmp);
         let median = times.get(times.len() / 2).copied().unwrap_or(f64::NAN);
         row(&format!("adapting {n} views, UR5e, {roll} roll"), median, "ms", bound_ms);
         if n == 35 {
-            let seconds = median_time(5, 1, || drop(black_box(reachability_of(&request, None, None))));
+            let seconds = median_time(5, 1, || drop(black_box(reachability_of(&json, None, None))));
             row(&format!("reachability of the band, UR5e, {roll} roll"), seconds, "s", Some(1.0));
         }
     }
