@@ -1,7 +1,7 @@
 //! Bounds of a request's numbers, and the usual mistakes behind values outside them.
 
 use super::{Arm, ObjectSphere, PlanError, PlanRequest, ViewSource, Warning, hand_eye, photos, surroundings};
-use crate::views::MAX_VIEWS;
+use crate::views::{Band, MAX_VIEWS};
 
 /// Largest coordinate of the object's centre and of the table, metres: beyond any arm's reach.
 const FARTHEST_M: f64 = 5.0;
@@ -37,6 +37,16 @@ pub fn check(request: &PlanRequest) -> Result<Vec<Warning>, PlanError> {
         )),
     }
     check_shell(request)?;
+    let (band, usual) = (request.shell.band, Band::DEFAULT);
+    // Up to the rounding of degrees.
+    let is_usual = (band.min_elevation_rad - usual.min_elevation_rad).abs() < 1e-9
+        && (band.max_elevation_rad - usual.max_elevation_rad).abs() < 1e-9;
+    if matches!(request.source, ViewSource::Initial { .. }) && !is_usual {
+        warnings.push(Warning::new(
+            "unused_band",
+            "the initial views have elevations of their own: those of view_space are not used",
+        ));
+    }
     warnings.extend(photos::check(request)?);
     if let Some(arm) = &request.arm {
         warnings.extend(check_arm(arm)?);

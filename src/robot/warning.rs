@@ -8,8 +8,8 @@ const FASTEST_RAD_PER_S: f64 = 30.0;
 /// A warning about a robot.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RobotWarning {
-    /// Stable name: `robot_description`, `mesh_left_out`, `mesh_replaced`, `mesh_unused`, `limit_widened` or
-    /// `speed_in_degrees`.
+    /// Stable name: `robot_description`, `mesh_left_out`, `mesh_replaced`, `mesh_unused`, `limit_widened`,
+    /// `unused_jerk_limit` or `speed_in_degrees`.
     pub code: &'static str,
     /// For people, with names and numbers.
     pub message: String,
@@ -34,6 +34,13 @@ impl RobotWarning {
     /// An attached file that no collision mesh names.
     pub fn mesh_unused(message: impl Into<String>) -> Self {
         Self { code: "mesh_unused", message: message.into() }
+    }
+
+    /// Jerk limits of a request that bounds no jerk.
+    pub fn unused_jerk_limit(joints: &[&str]) -> Self {
+        let message =
+            format!("the jerk limits of {} bind nothing: timing.jerk_limited is false", joints.join(", "));
+        Self { code: "unused_jerk_limit", message }
     }
 
     /// A speed limit that no arm has but many have in degrees.

@@ -21,7 +21,16 @@ async fn limits_of_the_request_bind_the_plan() {
     }
     let codes: Vec<&str> =
         plan["warnings"].as_array().unwrap().iter().map(|w| w["code"].as_str().unwrap()).collect();
-    assert!(codes.contains(&"limit_widened"), "{codes:?}");
+    assert!(codes.contains(&"limit_widened") && !codes.contains(&"unused_jerk_limit"), "{codes:?}");
+
+    // What is given but binds nothing is told.
+    let idle = json!({
+        "views": "initial", "limits": {"elbow_joint": {"max_jerk": 50.0}},
+        "view_space": {"radius": 0.3, "min_elevation_deg": 40.0},
+    });
+    let plan = server.post_json("/v1/plans", &with(cell(), idle)).await;
+    let told = |code: &str| plan["warnings"].as_array().unwrap().iter().any(|w| w["code"] == code);
+    assert!(told("unused_jerk_limit") && told("unused_band"), "{}", plan["warnings"]);
 
     for (limits, code, field) in [
         (json!({"elbow": {"max": 1.0}}), "unknown_joint", "limits.elbow"),

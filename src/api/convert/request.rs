@@ -10,6 +10,7 @@ use crate::api::wire::{
 };
 use crate::motion::{Objective, Roll};
 use crate::plan::{Arm, PlanRequest, UnreachableViews, ViewShell, ViewSource};
+use crate::robot::RobotWarning;
 use crate::views::Band;
 
 /// The shell of views.
@@ -119,12 +120,19 @@ fn arm(json: &PlanRequestJson) -> Result<Option<Arm>, Problem> {
         };
     };
     let mount = json.flange_from_camera.as_ref().map(|json| pose("flange_from_camera", json)).transpose()?;
+    let mut model = limited_robot(description, json.limits.as_ref())?;
+    let timing = timing(json.timing.as_ref());
+    let with_jerk = json.limits.iter().flatten().filter(|(_, limits)| limits.max_jerk.is_some());
+    let with_jerk: Vec<&str> = with_jerk.map(|(name, _)| name.as_str()).collect();
+    if !timing.jerk_limited && !with_jerk.is_empty() {
+        model.warnings.push(RobotWarning::unused_jerk_limit(&with_jerk));
+    }
     Ok(Some(Arm {
-        model: limited_robot(description, json.limits.as_ref())?,
+        model,
         flange_from_camera: mount,
         start_rad: json.start.clone(),
         surroundings: surroundings(json)?,
-        timing: timing(json.timing.as_ref()),
+        timing,
         roll,
         objective: match json.objective {
             ObjectiveJson::Distance => Objective::Distance,

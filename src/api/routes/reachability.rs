@@ -27,7 +27,7 @@ pub struct ReachabilityQuery {
 /// Which part of the band of views the arm can reach.
 ///
 /// The body is that of `POST /v1/plans`, with `robot` and `object`; what it says about the number
-/// of views does not matter.
+/// of views, their order, the motion's time and views out of reach does not matter.
 #[utoipa::path(
     post, path = "/v1/reachability", tag = "views", request_body = PlanRequestJson, params(ReachabilityQuery),
     responses(
