@@ -105,6 +105,10 @@ kernel! {
 fn march_body<S: Simd, const T: usize>(_: S, packets: &mut [Packet], map: &DistanceMap, wave: &mut Wave) {
     let cells = map.cells();
     for (p, packet) in packets.iter_mut().enumerate() {
+        // Most packets are through while the last rays still graze the object.
+        if packet.next.iter().zip(&packet.samples).all(|(next, samples)| next >= samples) {
+            continue;
+        }
         let mut quota = [WAVE; RAYS];
         loop {
             let mut position = [[0.0f32; RAYS]; 3];

@@ -22,8 +22,8 @@ const STRIDE: usize = 8;
 /// Largest recent opacity of each cell, and the map that marching reads.
 pub(super) struct Occupancy {
     opacity: Vec<f32>,
-    /// Cells that may be occupied.
-    hull: Vec<bool>,
+    /// Cells that may be occupied, in rising order.
+    hull: Vec<u32>,
     pub map: DistanceMap,
     updates: usize,
     blocks: Vec<DensityBlock>,
@@ -33,9 +33,9 @@ impl Occupancy {
     /// Every cell of `hull` (one flag a cell, x fastest) occupied.
     pub fn full(hull: Vec<bool>) -> Occupancy {
         Occupancy {
-            opacity: vec![1.0; hull.len()],
+            opacity: hull.iter().map(|&may| f32::from(u8::from(may))).collect(),
             map: DistanceMap::new(&hull),
-            hull,
+            hull: (0..hull.len() as u32).filter(|&cell| hull[cell as usize]).collect(),
             updates: 0,
             blocks: vec![DensityBlock::EMPTY; 64],
         }
@@ -45,14 +45,12 @@ impl Occupancy {
     pub fn update(&mut self, set: InstructionSet, field: &Field, rng: &mut ChaCha8Rng, all: bool) {
         let phase = self.updates;
         self.updates += 1;
-        let probed: Vec<u32> = (0..self.opacity.len())
+        let probed: Vec<u32> = (self.hull.iter().copied())
             .filter(|&cell| {
-                self.hull[cell]
-                    && (all
-                        || cell % STRIDE == phase % STRIDE
-                        || (cell % 2 == phase % 2 && self.opacity[cell] > OCCUPIED))
+                let cell = cell as usize;
+                all || cell % STRIDE == phase % STRIDE
+                    || (cell % 2 == phase % 2 && self.opacity[cell] > OCCUPIED)
             })
-            .map(|cell| cell as u32)
             .collect();
         // What `full` set is no observation: the first probe replaces it.
         let decay = match (phase, all) {
@@ -73,7 +71,7 @@ impl Occupancy {
                     }
                 }
             }
-            density(set, field, STEP, blocks);
+            density(set, field, STEP, blocks, cells.len());
             for (cells, block) in cells.chunks(LANES).zip(blocks.iter()) {
                 for (&cell, &alpha) in cells.iter().zip(&block.alpha.0) {
                     let opacity = &mut self.opacity[cell as usize];
@@ -81,8 +79,8 @@ impl Occupancy {
                 }
             }
         }
-        let occupied: Vec<bool> =
-            self.opacity.iter().zip(&self.hull).map(|(&o, &may)| may && o > OCCUPIED).collect();
+        // Cells outside the hull begin with no opacity and are never probed.
+        let occupied: Vec<bool> = self.opacity.iter().map(|&o| o > OCCUPIED).collect();
         self.map = DistanceMap::new(&occupied);
     }
 }

@@ -58,8 +58,7 @@ impl Samples {
             if wave.rays.is_empty() {
                 break;
             }
-            let used = wave.rays.len().div_ceil(LANES);
-            density(set, field, STEP, &mut wave.blocks[..used]);
+            density(set, field, STEP, &mut wave.blocks, wave.rays.len());
             self.keep(rays, thresholds);
         }
         let kept = self.kept;

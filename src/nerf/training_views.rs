@@ -16,8 +16,9 @@ const NEAR_OBJECT: f32 = 0.8;
 struct View<'a> {
     rays: ViewRays,
     image: &'a RgbaImage,
-    /// Pixels on or near the object.
-    near_object: Vec<u32>,
+    /// Pixels on or near the object with their colours: draws are random, so that each
+    /// look-up elsewhere would be a cache miss more.
+    near_object: Vec<(u32, [u8; 4])>,
 }
 
 /// The views, ready to draw from.
@@ -58,7 +59,7 @@ impl<'a> TrainingViews<'a> {
             .map(|v| View {
                 rays: ViewRays::new(&v.camera, &v.world_from_camera, bounds),
                 image: &v.image,
-                near_object: if masked { dilated_silhouette(&v.image) } else { Vec::new() },
+                near_object: if masked { with_colours(&v.image) } else { Vec::new() },
             })
             .collect();
         let seen = |v: &View| (0..v.rays.width * v.rays.height).any(|pixel| v.rays.ray(pixel, 0.5).is_some());
@@ -73,21 +74,30 @@ impl<'a> TrainingViews<'a> {
     pub fn draw(&self, rng: &mut ChaCha8Rng) -> TrainingRay {
         let view = &self.views[below(rng, self.views.len() as u32) as usize];
         let near = unit(rng) < NEAR_OBJECT && !view.near_object.is_empty();
-        let pixel = if near {
+        let (pixel, rgba) = if near {
             view.near_object[below(rng, view.near_object.len() as u32) as usize]
         } else {
-            below(rng, view.rays.width * view.rays.height)
+            let pixel = below(rng, view.rays.width * view.rays.height);
+            (pixel, rgba_of(view.image, pixel))
         };
         let ray = view.rays.ray(pixel, unit(rng));
         let background = match self.background {
             Some(colour) => colour.map(|c| f32::from(c) / 255.0),
             None => [unit(rng), unit(rng), unit(rng)],
         };
-        let at = pixel as usize * 4;
-        let rgba: [f32; 4] = std::array::from_fn(|c| f32::from(view.image.as_raw()[at + c]) / 255.0);
+        let rgba = rgba.map(|c| f32::from(c) / 255.0);
         let target = std::array::from_fn(|c| rgba[c] * rgba[3] + background[c] * (1.0 - rgba[3]));
         TrainingRay { ray, background, target }
     }
+}
+
+fn with_colours(image: &RgbaImage) -> Vec<(u32, [u8; 4])> {
+    dilated_silhouette(image).into_iter().map(|pixel| (pixel, rgba_of(image, pixel))).collect()
+}
+
+/// Pixels are counted row by row.
+fn rgba_of(image: &RgbaImage, pixel: u32) -> [u8; 4] {
+    image.get_pixel(pixel % image.width(), pixel / image.width()).0
 }
 
 /// Uniform in `0..n`; the bias is below n / 2^32.

@@ -1,6 +1,9 @@
 //! Which cells can hold anything at all, judged by the silhouettes alone.
 
-use nalgebra::Isometry3;
+use std::ops::Range;
+
+use image::RgbaImage;
+use nalgebra::Matrix3x4;
 
 use super::Bounds;
 use super::distance_map::CELLS;
@@ -21,11 +24,12 @@ pub(super) fn visual_hull(views: &[PosedImage], bounds: &Bounds) -> Vec<bool> {
     let views: Vec<Silhouette> =
         views.iter().filter(|v| v.camera.distortion.is_none()).map(Silhouette::new).collect();
     let mut hull = vec![false; CELLS * CELLS * CELLS];
+    let all: Vec<&Silhouette> = views.iter().collect();
     let corners = (0..CELLS).step_by(LARGEST_BLOCK);
     for z in corners.clone() {
         for y in corners.clone() {
             for x in corners.clone() {
-                keep_block(&views, bounds, [x, y, z], LARGEST_BLOCK, &mut hull);
+                keep_block(&all, bounds, [x, y, z], LARGEST_BLOCK, &mut hull);
             }
         }
     }
@@ -33,51 +37,66 @@ pub(super) fn visual_hull(views: &[PosedImage], bounds: &Bounds) -> Vec<bool> {
 }
 
 /// Sets the cells of the block of `edge` cells at `corner` that no view rules out.
-fn keep_block(views: &[Silhouette], bounds: &Bounds, corner: [usize; 3], edge: usize, hull: &mut [bool]) {
+fn keep_block(views: &[&Silhouette], bounds: &Bounds, corner: [usize; 3], edge: usize, hull: &mut [bool]) {
     let cell_m = 2.0 * bounds.half_extent_m / CELLS as f64;
     let middle = corner.map(|c| (c as f64 + 0.5 * edge as f64) * cell_m - bounds.half_extent_m);
     let center = bounds.center + nalgebra::Vector3::from(middle);
     let radius_m = 0.5 * 3.0f64.sqrt() * edge as f64 * cell_m;
-    if views.iter().any(|view| view.rules_out(&center, radius_m)) {
-        return;
+    // Views that show nothing but the object here have no more to say of its parts.
+    let mut undecided = Vec::with_capacity(views.len());
+    for &view in views {
+        match view.shows(&center, radius_m) {
+            Shown::Background => return,
+            Shown::Object => {}
+            Shown::Either => undecided.push(view),
+        }
     }
-    if edge == 1 {
-        let [x, y, z] = corner;
-        if let Some(cell) = hull.get_mut((z * CELLS + y) * CELLS + x) {
-            *cell = true;
+    if edge == 1 || undecided.is_empty() {
+        for z in corner[2]..corner[2] + edge {
+            for y in corner[1]..corner[1] + edge {
+                let row = (z * CELLS + y) * CELLS + corner[0];
+                hull[row..row + edge].fill(true);
+            }
         }
         return;
     }
     let half = edge / 2;
     for child in 0..8 {
         let at = std::array::from_fn(|a| corner[a] + if child >> a & 1 == 1 { half } else { 0 });
-        keep_block(views, bounds, at, half, hull);
+        keep_block(&undecided, bounds, at, half, hull);
     }
 }
 
-/// A view's camera, and how far each of its pixels is from the object.
+/// What a view shows where a ball is.
+enum Shown {
+    Background,
+    Object,
+    /// Both, or the view does not show the ball whole.
+    Either,
+}
+
+/// A view's camera, and where it shows the object.
 struct Silhouette {
     camera: Camera,
-    camera_from_world: Isometry3<f64>,
-    /// Chebyshev distance in pixels to the nearest one that is not fully transparent, row by row.
-    distance_px: Vec<u16>,
+    camera_from_world: Matrix3x4<f64>,
+    covered: CoveredPixels,
 }
 
 impl Silhouette {
     fn new(view: &PosedImage) -> Silhouette {
-        let (width, height) = view.image.dimensions();
-        let mut distance_px: Vec<u16> =
-            view.image.pixels().map(|p| if p.0[3] > 0 { 0 } else { u16::MAX }).collect();
-        spread_distances(&mut distance_px, width as usize, height as usize);
-        Silhouette { camera: view.camera, camera_from_world: view.world_from_camera.inverse(), distance_px }
+        let camera_from_world = view.world_from_camera.inverse().to_homogeneous();
+        Silhouette {
+            camera: view.camera,
+            camera_from_world: camera_from_world.fixed_rows::<3>(0).into_owned(),
+            covered: CoveredPixels::new(&view.image),
+        }
     }
 
-    /// Whether the ball shows only background here.
-    fn rules_out(&self, center_in_world: &Point, radius_m: f64) -> bool {
-        let c = self.camera_from_world * center_in_world;
-        let distance = c.coords.norm();
+    fn shows(&self, center_in_world: &Point, radius_m: f64) -> Shown {
+        let c = self.camera_from_world * center_in_world.to_homogeneous();
+        let distance = c.norm();
         if c.z <= radius_m || distance <= radius_m {
-            return false;
+            return Shown::Either;
         }
         let (x, y) = (c.x / c.z, c.y / c.z);
         // The ball's cone has the half-angle asin(r / d); seen at tan(angle) = rho off the
@@ -85,7 +104,7 @@ impl Silhouette {
         let rho = x.hypot(y);
         let tan_half = radius_m / (distance * distance - radius_m * radius_m).sqrt();
         if rho * tan_half >= 1.0 {
-            return false;
+            return Shown::Either;
         }
         let reach = tan_half * (1.0 + rho * rho) / (1.0 - rho * tan_half);
         let reach_px = reach * self.camera.fx.max(self.camera.fy) + MARGIN_PX;
@@ -93,56 +112,51 @@ impl Silhouette {
         let (width, height) = (f64::from(self.camera.width), f64::from(self.camera.height));
         let whole = u >= reach_px && v >= reach_px && u + reach_px <= width && v + reach_px <= height;
         if !whole {
-            return false;
+            return Shown::Either;
         }
-        let pixel = v as usize * self.camera.width as usize + u as usize;
-        // A pixel at distance n is at least n - 1 widths away from any point of this one.
-        self.distance_px.get(pixel).is_some_and(|&n| f64::from(n) - 1.0 > reach_px)
+        // A pixel `n` away has points that are less than `n` widths from this one.
+        let range = |x: f64, end: u32| {
+            let (pixel, away) = (x as usize, reach_px as usize + 1);
+            pixel.saturating_sub(away)..(pixel + away + 1).min(end as usize)
+        };
+        let (columns, rows) = (range(u, self.camera.width), range(v, self.camera.height));
+        match self.covered.count(&columns, &rows) as usize {
+            0 => Shown::Background,
+            all if all == columns.len() * rows.len() => Shown::Object,
+            _ => Shown::Either,
+        }
     }
 }
 
-/// Chebyshev distances to the zeros, in two passes over the eight neighbours, which is exact for this metric.
-fn spread_distances(distance: &mut [u16], width: usize, height: usize) {
-    let mut take = |at: usize, from: usize| {
-        if let (Some(&d), Some(to)) = (distance.get(from), distance.get(at).copied()) {
-            distance[at] = to.min(d.saturating_add(1));
-        }
-    };
-    for y in 0..height {
-        for x in 0..width {
-            let at = y * width + x;
-            if x > 0 {
-                take(at, at - 1);
-            }
-            if y > 0 {
-                let above = at - width;
-                take(at, above);
-                if x > 0 {
-                    take(at, above - 1);
-                }
-                if x + 1 < width {
-                    take(at, above + 1);
-                }
+/// How many pixels of a rectangle are not fully transparent, by a summed-area table (Crow 1984).
+struct CoveredPixels {
+    /// One more than the image's width.
+    stride: usize,
+    /// Such pixels above and left of each corner of pixels, row by row.
+    sums: Vec<u32>,
+}
+
+impl CoveredPixels {
+    fn new(image: &RgbaImage) -> CoveredPixels {
+        let stride = image.width() as usize + 1;
+        let mut sums = vec![0; stride * (image.height() as usize + 1)];
+        for (y, row) in image.as_raw().chunks_exact(4 * image.width() as usize).enumerate() {
+            let (above, here) = sums[y * stride..].split_at_mut(stride);
+            let mut sum = 0;
+            for ((pixel, above), here) in row.chunks_exact(4).zip(&above[1..]).zip(&mut here[1..]) {
+                sum += u32::from(pixel[3] > 0);
+                *here = above + sum;
             }
         }
+        CoveredPixels { stride, sums }
     }
-    for y in (0..height).rev() {
-        for x in (0..width).rev() {
-            let at = y * width + x;
-            if x + 1 < width {
-                take(at, at + 1);
-            }
-            if y + 1 < height {
-                let below = at + width;
-                take(at, below);
-                if x > 0 {
-                    take(at, below - 1);
-                }
-                if x + 1 < width {
-                    take(at, below + 1);
-                }
-            }
-        }
+
+    /// The ranges must lie in the image.
+    fn count(&self, columns: &Range<usize>, rows: &Range<usize>) -> u32 {
+        let at = |x: usize, y: usize| self.sums[y * self.stride + x];
+        at(columns.end, rows.end) + at(columns.start, rows.start)
+            - at(columns.start, rows.end)
+            - at(columns.end, rows.start)
     }
 }
 
@@ -155,19 +169,18 @@ mod tests {
 
     proptest! {
         #[test]
-        fn distances_are_chebyshev(solid in prop::collection::vec((0..17usize, 0..9usize), 1..6)) {
-            let (width, height) = (17, 9);
-            let mut distance = vec![u16::MAX; width * height];
+        fn covered_pixels_are_counted_in_every_rectangle(
+            solid in prop::collection::btree_set((0..17u32, 0..9u32), 0..40),
+            x in (0..18usize, 0..18usize), y in (0..10usize, 0..10usize),
+        ) {
+            let mut image = RgbaImage::new(17, 9);
             for &(x, y) in &solid {
-                distance[y * width + x] = 0;
+                image.put_pixel(x, y, Rgba([0, 0, 0, 1]));
             }
-            spread_distances(&mut distance, width, height);
-            for y in 0..height {
-                for x in 0..width {
-                    let nearest = solid.iter().map(|&(a, b)| x.abs_diff(a).max(y.abs_diff(b))).min();
-                    prop_assert_eq!(Some(usize::from(distance[y * width + x])), nearest);
-                }
-            }
+            let (columns, rows) = (x.0.min(x.1)..x.0.max(x.1), y.0.min(y.1)..y.0.max(y.1));
+            let inside = |p: &&(u32, u32)| columns.contains(&(p.0 as usize)) && rows.contains(&(p.1 as usize));
+            let expected = solid.iter().filter(inside).count();
+            prop_assert_eq!(CoveredPixels::new(&image).count(&columns, &rows) as usize, expected);
         }
     }
 

@@ -7,16 +7,29 @@ use super::{DENSITY_SLOPE, Field};
 use crate::nerf::simd::{LANES, Lanes, Simd, kernel};
 
 kernel! {
-    /// Fills `features` and `alpha` of each block from its positions; `step` is
-    /// the length of a step in units of the cube's edge.
-    fn density(field: &Field, step: f32, blocks: &mut [DensityBlock]) = density_body
+    /// Fills `features` and `alpha` of the first `samples` lanes of `blocks` from
+    /// their positions; `step` is the length of a step in units of the cube's edge.
+    fn density(
+        field: &Field,
+        step: f32,
+        blocks: &mut [DensityBlock],
+        samples: usize,
+    ) = density_body
 }
 
 #[inline(always)]
-fn density_body<S: Simd, const T: usize>(s: S, field: &Field, step: f32, blocks: &mut [DensityBlock]) {
+fn density_body<S: Simd, const T: usize>(
+    s: S,
+    field: &Field,
+    step: f32,
+    blocks: &mut [DensityBlock],
+    samples: usize,
+) {
     let mut hidden = [Lanes::ZERO; HIDDEN];
-    for block in blocks {
-        encode(s, &field.grid, &block.position, &mut block.features);
+    let used = samples.div_ceil(LANES);
+    for (b, block) in blocks[..used].iter_mut().enumerate() {
+        let used = (samples - b * LANES).min(LANES);
+        encode(s, &field.grid, &block.position, used, &mut block.features);
         linear::<S, T>(s, &field.density_in.packed, &block.features, &mut hidden, Rectify);
         for at in (0..LANES).step_by(S::WIDTH) {
             let mut raw = s.splat(0.0);

@@ -2,14 +2,15 @@
 
 use super::block::FEATURES;
 use super::hash_grid::{Corners, ENTRY, HashGrid};
-use crate::nerf::simd::{LANES, LINE, Lanes, Simd};
+use crate::nerf::simd::{LINE, Lanes, Simd};
 
-/// Features of the samples at `position`.
+/// Features of the first `used` samples at `position`, rounded up to four.
 #[inline(always)]
 pub(super) fn encode<S: Simd>(
     s: S,
     grid: &HashGrid,
     position: &[Lanes; 3],
+    used: usize,
     features: &mut [Lanes; FEATURES],
 ) {
     let table = grid.table.as_ptr().cast::<f32>();
@@ -17,7 +18,7 @@ pub(super) fn encode<S: Simd>(
     let mut corners = Corners::EMPTY;
     for (level, rows) in grid.levels.iter().zip(features.chunks_exact_mut(ENTRY)) {
         corners.find(level, position);
-        for first in (0..LANES).step_by(4) {
+        for first in (0..used).step_by(4) {
             let mut quads = [s.load_quad(&rows[0].0, first); 4];
             for (k, quad) in quads.iter_mut().enumerate() {
                 let i = first + k;

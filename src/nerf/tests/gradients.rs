@@ -40,7 +40,7 @@ fn case() -> Case {
 /// The loss and the blocks it was computed with.
 fn loss(set: InstructionSet, case: &Case) -> (f64, Vec<Block>, Vec<PixelGradient>) {
     let mut found = case.positions.clone();
-    density(set, &case.field, STEP, &mut found);
+    density(set, &case.field, STEP, &mut found, SAMPLES);
     let mut blocks = vec![Block::EMPTY; found.len()];
     for (b, (block, found)) in blocks.iter_mut().zip(&found).enumerate() {
         block.position = found.position;
