@@ -14,7 +14,8 @@ use super::visual_hull::visual_hull;
 use super::{Bounds, Nerf, NerfError, NerfSettings};
 use crate::imaging::PosedImage;
 
-const THRESHOLDS: Thresholds = Thresholds { weight: 3e-3, transmittance: 1e-3 };
+/// Rays that let less light through stop.
+const OPAQUE: f32 = 1e-3;
 /// Kept samples that a group of rays should have: enough to fill blocks, few
 /// enough to stay in the second-level cache.
 const GROUP_SAMPLES: usize = 1024;
@@ -87,11 +88,11 @@ struct Trainer {
 impl Trainer {
     fn new(settings: &NerfSettings, hull: Vec<bool>) -> Trainer {
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
-        let field = Field::new(&mut rng);
+        let field = Field::new(settings.table_bits, &mut rng);
         Trainer {
             settings: *settings,
             gradients: Gradients::new(&field),
-            adam: Adam::new(&field),
+            adam: Adam::new(&field, settings.square_decay),
             occupancy: Occupancy::full(hull),
             samples: Samples::new(),
             group: GROUP.0,
@@ -138,7 +139,8 @@ impl Trainer {
                 None => loss += squared_error(drawn.background, drawn.target),
             }
         }
-        self.samples.collect(set, &self.field, &self.occupancy.map, &rays, THRESHOLDS);
+        let thresholds = Thresholds { weight: self.settings.least_weight, transmittance: OPAQUE };
+        self.samples.collect(set, &self.field, &self.occupancy.map, &rays, thresholds);
         let blocks = self.samples.blocks();
         forward(set, &self.field, STEP, blocks);
         let mut pixels = vec![Pixel::EMPTY; rays.len()];

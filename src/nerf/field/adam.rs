@@ -6,7 +6,6 @@ use super::{Field, Layer};
 use crate::nerf::simd::{InstructionSet, LINE, Line, Simd, flat_mut, kernel};
 
 const BETA_1: f32 = 0.9;
-const BETA_2: f32 = 0.99;
 const EPSILON: f32 = 1e-10;
 
 /// First and second moments of a line.
@@ -15,6 +14,7 @@ type Moments = [Line; 2];
 /// State of the optimiser.
 pub(in crate::nerf) struct Adam {
     steps: i32,
+    square_decay: f32,
     grid: Vec<Moments>,
     layers: [LayerState; 4],
 }
@@ -37,10 +37,12 @@ pub(in crate::nerf) struct Rate {
 }
 
 impl Adam {
-    pub fn new(field: &Field) -> Adam {
+    /// `square_decay` is the part of the second moments that stays in a step.
+    pub fn new(field: &Field, square_decay: f32) -> Adam {
         let layers = [&field.density_in, &field.density_out, &field.colour_in, &field.colour_out];
         Adam {
             steps: 0,
+            square_decay,
             grid: vec![[Line::ZERO; 2]; field.grid.table.len()],
             layers: layers.map(|layer| LayerState {
                 moments: vec![[Line::ZERO; 2]; layer.weights.len()],
@@ -54,10 +56,11 @@ impl Adam {
     pub fn step(&mut self, set: InstructionSet, field: &mut Field, gradients: &mut Gradients, rate: Rate) {
         self.steps = self.steps.saturating_add(1);
         // Undoes the moments' bias towards their initial zero.
-        let bias = (1.0 - BETA_2.powi(self.steps)).sqrt() / (1.0 - BETA_1.powi(self.steps));
+        let bias = (1.0 - self.square_decay.powi(self.steps)).sqrt() / (1.0 - BETA_1.powi(self.steps));
         let grid = &mut gradients.grid;
-        let (size, scale) = (rate.grid * bias, rate.scale);
-        adam(set, &mut field.grid.table, &mut grid.table, &mut self.grid, &mut grid.touched, size, scale);
+        let factors = Factors { square_decay: self.square_decay, scale: rate.scale, size: rate.grid * bias };
+        adam(set, &mut field.grid.table, &mut grid.table, &mut self.grid, &mut grid.touched, factors);
+        let factors = Factors { size: rate.networks * bias, ..factors };
         let layers: [(&mut Layer, &mut Vec<Line>); 4] = [
             (&mut field.density_in, &mut gradients.density_in),
             (&mut field.density_out, &mut gradients.density_out),
@@ -68,10 +71,20 @@ impl Adam {
             take_sums(sums, flat_mut(&mut state.gradient));
             let LayerState { moments, gradient, touched } = state;
             touched.fill(1);
-            adam(set, &mut layer.weights, gradient, moments, touched, rate.networks * bias, scale);
+            adam(set, &mut layer.weights, gradient, moments, touched, factors);
             layer.pack();
         }
     }
+}
+
+/// What a step multiplies by.
+#[derive(Clone, Copy)]
+pub(super) struct Factors {
+    square_decay: f32,
+    /// On gradients.
+    scale: f32,
+    /// On changes, less what undoes the moments' bias.
+    size: f32,
 }
 
 kernel! {
@@ -81,8 +94,7 @@ kernel! {
         gradient: &mut [Line],
         moments: &mut [Moments],
         touched: &mut [u8],
-        size: f32,
-        scale: f32,
+        factors: Factors,
     ) = adam_body
 }
 
@@ -93,9 +105,9 @@ fn adam_body<S: Simd, const T: usize>(
     gradient: &mut [Line],
     moments: &mut [Moments],
     touched: &mut [u8],
-    size: f32,
-    scale: f32,
+    factors: Factors,
 ) {
+    let Factors { square_decay, scale, size } = factors;
     let lines = parameters.iter_mut().zip(gradient).zip(moments).zip(touched);
     for (((p, g), [m, v]), touched) in lines {
         if *touched == 0 {
@@ -106,7 +118,8 @@ fn adam_body<S: Simd, const T: usize>(
             let d = s.mul(s.load(&g.0, at), s.splat(scale));
             let m_new = s.fma(s.splat(BETA_1), s.load(&m.0, at), s.mul(s.splat(1.0 - BETA_1), d));
             let d2 = s.mul(d, d);
-            let v_new = s.fma(s.splat(BETA_2), s.load(&v.0, at), s.mul(s.splat(1.0 - BETA_2), d2));
+            let v_new =
+                s.fma(s.splat(square_decay), s.load(&v.0, at), s.mul(s.splat(1.0 - square_decay), d2));
             let change = s.div(m_new, s.add(s.sqrt(v_new), s.splat(EPSILON)));
             let p_new = s.fma(s.splat(-size), change, s.load(&p.0, at));
             s.store(&mut m.0, at, m_new);

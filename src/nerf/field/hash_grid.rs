@@ -12,8 +12,6 @@ pub(in crate::nerf) const LEVELS: usize = 5;
 pub(in crate::nerf) const ENTRY: usize = 4;
 /// Cells along an edge, a level: 16 * (128 / 16)^(level / 4), rounded.
 const CELLS: [u32; LEVELS] = [16, 27, 45, 76, 128];
-/// Range of the hash; a level whose vertices fit is stored without hashing.
-const HASHED_ENTRIES: u32 = 1 << 15;
 /// The two large primes of Teschner et al. (2003).
 const PRIMES: [u32; 2] = [2_654_435_761, 805_459_861];
 
@@ -22,7 +20,8 @@ const PRIMES: [u32; 2] = [2_654_435_761, 805_459_861];
 pub(in crate::nerf) struct Level {
     first_entry: u32,
     cells: u32,
-    dense: bool,
+    /// Range of the hash less one; `None` where every vertex has its own entry.
+    mask: Option<u32>,
 }
 
 /// The trainable grid over the unit cube.
@@ -44,14 +43,16 @@ pub(in crate::nerf) struct Corners {
 }
 
 impl HashGrid {
-    pub fn new(rng: &mut ChaCha8Rng) -> HashGrid {
+    /// A level whose vertices fit into `2^table_bits` entries is stored without hashing.
+    pub fn new(table_bits: u32, rng: &mut ChaCha8Rng) -> HashGrid {
+        let hashed = 1 << table_bits;
         let mut next = 0;
         let levels = CELLS.map(|cells| {
             let vertices = cells + 1;
-            let dense = vertices.pow(3) <= HASHED_ENTRIES;
+            let dense = vertices.pow(3) <= hashed;
             // Room for x beyond the hash instead of wrapping round keeps every pair adjacent.
-            let entries = if dense { vertices.pow(3) } else { HASHED_ENTRIES + vertices };
-            let level = Level { first_entry: next, cells, dense };
+            let entries = if dense { vertices.pow(3) } else { hashed + vertices };
+            let level = Level { first_entry: next, cells, mask: (!dense).then_some(hashed - 1) };
             next += entries.next_multiple_of((LINE / ENTRY) as u32);
             level
         });
@@ -89,21 +90,20 @@ impl Corners {
             self.weight[2].0[i] = fz - high;
             self.weight[3].0[i] = high;
             let base = level.first_entry + xi;
-            if level.dense {
+            let Some(mask) = level.mask else {
                 let row = base + (zi * vertices + yi) * vertices;
                 self.entry[0][i] = row;
                 self.entry[1][i] = row + vertices;
                 self.entry[2][i] = row + vertices * vertices;
                 self.entry[3][i] = row + vertices * vertices + vertices;
-            } else {
-                let (y0, z0) = (yi.wrapping_mul(PRIMES[0]), zi.wrapping_mul(PRIMES[1]));
-                let (y1, z1) = (y0.wrapping_add(PRIMES[0]), z0.wrapping_add(PRIMES[1]));
-                let mask = HASHED_ENTRIES - 1;
-                self.entry[0][i] = base + ((y0 ^ z0) & mask);
-                self.entry[1][i] = base + ((y1 ^ z0) & mask);
-                self.entry[2][i] = base + ((y0 ^ z1) & mask);
-                self.entry[3][i] = base + ((y1 ^ z1) & mask);
-            }
+                continue;
+            };
+            let (y0, z0) = (yi.wrapping_mul(PRIMES[0]), zi.wrapping_mul(PRIMES[1]));
+            let (y1, z1) = (y0.wrapping_add(PRIMES[0]), z0.wrapping_add(PRIMES[1]));
+            self.entry[0][i] = base + ((y0 ^ z0) & mask);
+            self.entry[1][i] = base + ((y1 ^ z0) & mask);
+            self.entry[2][i] = base + ((y0 ^ z1) & mask);
+            self.entry[3][i] = base + ((y1 ^ z1) & mask);
         }
     }
 }
@@ -115,7 +115,13 @@ mod tests {
 
     #[test]
     fn every_corner_of_the_cube_and_worse_positions_stay_inside_their_level() {
-        let grid = HashGrid::new(&mut ChaCha8Rng::seed_from_u64(1));
+        for table_bits in [10, 13, 15] {
+            stay_inside(table_bits);
+        }
+    }
+
+    fn stay_inside(table_bits: u32) {
+        let grid = HashGrid::new(table_bits, &mut ChaCha8Rng::seed_from_u64(1));
         let mut position = [Lanes::ZERO; 3];
         let odd = [0.0, 1.0, 1.0 - f32::EPSILON / 2.0, -3.0, 7.0, f32::NAN, f32::INFINITY, 0.5];
         for i in 0..LANES {

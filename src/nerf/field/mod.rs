@@ -43,9 +43,10 @@ pub(super) struct Field {
 }
 
 impl Field {
-    pub fn new(rng: &mut ChaCha8Rng) -> Field {
+    /// With `2^table_bits` entries in a hashed level of the grid.
+    pub fn new(table_bits: u32, rng: &mut ChaCha8Rng) -> Field {
         Field {
-            grid: HashGrid::new(rng),
+            grid: HashGrid::new(table_bits, rng),
             density_in: Layer::new(FEATURES, HIDDEN, rng),
             density_out: Layer::new(HIDDEN, GEOMETRY, rng),
             colour_in: Layer::new(COLOUR_INPUTS, HIDDEN, rng),

@@ -23,7 +23,7 @@ struct Case {
 
 fn case() -> Case {
     let mut rng = ChaCha8Rng::seed_from_u64(5);
-    let mut field = Field::new(&mut rng);
+    let mut field = Field::new(15, &mut rng);
     for x in flat_mut(&mut field.grid.table) {
         *x = rng.random_range(-0.7..0.7);
     }
