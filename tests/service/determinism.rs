@@ -65,6 +65,11 @@ async fn requests_that_mean_the_same_have_one_id() {
     let roll = json!({"roll": "sampled", "roll_samples": 12});
     assert_eq!(server.post_json("/v1/plans", &mounted(turned, roll)).await, sampled);
     assert_ne!(sampled["id"], plan["id"]);
+    // A stored request is the request of its plan.
+    let turned = [0.1, -0.2, 0.3, 0.9273618495495703];
+    let third = server.post_json("/v1/plans", &mounted(turned, json!({}))).await;
+    let stored = server.get_json(&format!("/v1/plans/{}/request", third["id"].as_str().unwrap())).await;
+    assert_eq!(server.post_json("/v1/plans", &stored).await, third);
     for other in [
         json!({"limits": {"elbow_joint": {"max": 2.0}}}),
         json!({"timing": {"settle": 0.5}}),

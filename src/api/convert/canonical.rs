@@ -157,8 +157,8 @@ mod tests {
             };
             let once = text(pose(1.0));
             prop_assert_eq!(&once, &text(pose(-1.0)));
-            let twice = canonical(canonical(serde_json::from_value(pose(1.0)).unwrap()));
-            prop_assert_eq!(&once, &serde_json::to_string(&twice).unwrap());
+            // Written and read again, as a request that is fetched and posted is.
+            prop_assert_eq!(&once, &text(serde_json::from_str(&once).unwrap()));
         }
     }
 }
