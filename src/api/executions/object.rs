@@ -9,35 +9,48 @@ use serde_json::Value;
 use crate::api::convert::base64_bytes;
 use crate::api::problem::Problem;
 use crate::api::wire::ExecutionObject;
+use crate::objects::{Source, families, object_at};
 use crate::render::{Mesh, sample_names, sample_object};
 
 /// Loads the object that `json` names; an uploaded one through a file in `scratch`.
 ///
 /// # Errors
-/// 422 unless exactly one source is given; unknown samples, files outside the objects directory,
+/// 422 unless exactly one source is given; unknown samples and made objects, files outside the objects directory,
 /// files that are no meshes.
 pub fn load_object(
     json: &ExecutionObject,
     objects_dir: Option<&Path>,
     scratch: &Path,
 ) -> Result<Mesh, Problem> {
-    match (&json.sample, &json.file, &json.glb) {
-        (Some(name), None, None) => sample_object(name).ok_or_else(|| {
+    match (&json.sample, &json.made, &json.file, &json.glb) {
+        (Some(name), None, None, None) => sample_object(name).ok_or_else(|| {
             let known = sample_names().join(", ");
             Problem::field("unknown_object", "object.sample", name.clone(), format!("one of {known}"))
         }),
-        (None, Some(file), None) => {
+        (None, Some(key), None, None) => made(key),
+        (None, None, Some(file), None) => {
             let path = path_below(objects_dir, file)?;
             load("object.file", file, &path)
         }
-        (None, None, Some(text)) => uploaded(text, scratch),
+        (None, None, None, Some(text)) => uploaded(text, scratch),
         _ => Err(Problem::field(
             "object_source",
             "object",
             serde_json::to_value(json).unwrap_or(Value::Null),
-            "exactly one of sample, file and glb",
+            "exactly one of sample, made, file and glb",
         )),
     }
+}
+
+/// A made object by its key; nothing that names a file.
+fn made(key: &str) -> Result<Mesh, Problem> {
+    let entry = object_at(key).ok().filter(|entry| matches!(entry.source, Source::Made { .. }));
+    let mesh = entry.and_then(|entry| entry.load().ok());
+    mesh.ok_or_else(|| {
+        let known: Vec<&str> = families().map(|family| family.name()).collect();
+        let bound = format!("made:FAMILY/SEED, FAMILY one of {}, SEED a whole number", known.join(", "));
+        Problem::field("unknown_object", "object.made", key, bound)
+    })
 }
 
 /// The file `relative` below the objects directory, links resolved.

@@ -29,7 +29,7 @@ fn default_speed() -> f64 {
     1.0
 }
 
-/// The object: exactly one of `sample`, `file` and `glb`.
+/// The object: exactly one of `sample`, `made`, `file` and `glb`.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 #[schema(example = json!({"sample": "mug"}))]
@@ -37,6 +37,11 @@ pub struct ExecutionObject {
     /// A sample of `GET /v1/objects`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample: Option<String>,
+    /// An object made from code, `made:FAMILY/SEED` as `prv objects` lists them; `~texture=N` at its end gives it
+    /// other textures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(example = "made:vase/3")]
+    pub made: Option<String>,
     /// An OBJ or glTF file below the server's objects directory, as a relative path.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
