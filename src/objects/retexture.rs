@@ -34,15 +34,15 @@ pub(super) fn retextured(mesh: &Mesh, key: &str, number: u64) -> Mesh {
     let densities = densities(&mesh, radius);
     // Materials that shared a texture share the new one.
     let mut by_image: HashMap<*const RgbaImage, (Arc<RgbaImage>, bool)> = HashMap::new();
-    for index in 0..mesh.materials.len() {
+    for (index, material) in mesh.materials.iter_mut().enumerate() {
         let colors = palette.turned(index as u32 % 5);
-        let own = mesh.materials[index].texture.clone();
+        let own = material.texture.clone();
         let clear = own.as_ref().is_some_and(|image| image.pixels().any(|p| p[3] < 255));
         let kept = own.is_some() && densities.get(index).is_some_and(|d| DENSITIES.contains(d));
         let known = own.as_ref().and_then(|image| by_image.get(&Arc::as_ptr(image)).cloned());
         let (texture, on_own) = match (&own, known) {
             (_, Some(known)) => known,
-            (Some(image), None) if clear && mesh.materials[index].alpha_cutoff > 0.0 => {
+            (Some(image), None) if clear && material.alpha_cutoff > 0.0 => {
                 (Arc::new(recoloured(image, &mut dice, &colors)), true)
             }
             _ => {
@@ -60,7 +60,6 @@ pub(super) fn retextured(mesh: &Mesh, key: &str, number: u64) -> Mesh {
             by_image.insert(Arc::as_ptr(image), (Arc::clone(&texture), on_own));
         }
         project[index] = !on_own;
-        let material = &mut mesh.materials[index];
         *material = Material { color: [1.0; 3], texture: Some(texture), ..material.clone() };
     }
     let materials = mesh.triangle_materials.clone();
