@@ -8,7 +8,7 @@ mod truck;
 
 use super::style::Style;
 use crate::objects::dice::Dice;
-use crate::objects::frame::{V, v};
+use crate::objects::frame::V;
 use crate::objects::shape::{Assembly, Section};
 
 pub(super) fn make(dice: &mut Dice) -> Assembly {
