@@ -3,7 +3,7 @@
 
 use super::gradients::{Gradients, take_sums};
 use super::{Field, Layer};
-use crate::nerf::simd::{InstructionSet, LINE, Line, Simd, flat_mut, kernel};
+use crate::nerf::simd::{InstructionSet, LINE, Line, Lines, Simd, flat_mut, kernel};
 
 const BETA_1: f32 = 0.9;
 const EPSILON: f32 = 1e-10;
@@ -15,7 +15,8 @@ type Moments = [Line; 2];
 pub(in crate::nerf) struct Adam {
     steps: i32,
     square_decay: f32,
-    grid: Vec<Moments>,
+    /// [`Moments`] one after the other.
+    grid: Lines,
     layers: [LayerState; 4],
 }
 
@@ -43,7 +44,7 @@ impl Adam {
         Adam {
             steps: 0,
             square_decay,
-            grid: vec![[Line::ZERO; 2]; field.grid.table.len()],
+            grid: Lines::new(2 * field.grid.table.len()),
             layers: layers.map(|layer| LayerState {
                 moments: vec![[Line::ZERO; 2]; layer.weights.len()],
                 gradient: vec![Line::ZERO; layer.weights.len()],
@@ -59,7 +60,8 @@ impl Adam {
         let bias = (1.0 - self.square_decay.powi(self.steps)).sqrt() / (1.0 - BETA_1.powi(self.steps));
         let grid = &mut gradients.grid;
         let factors = Factors { square_decay: self.square_decay, scale: rate.scale, size: rate.grid * bias };
-        adam(set, &mut field.grid.table, &mut grid.table, &mut self.grid, &mut grid.touched, factors);
+        let (moments, _) = self.grid.as_chunks_mut();
+        adam(set, &mut field.grid.table, &mut grid.table, moments, &mut grid.touched, factors);
         let factors = Factors { size: rate.networks * bias, ..factors };
         let layers: [(&mut Layer, &mut Vec<Line>); 4] = [
             (&mut field.density_in, &mut gradients.density_in),

@@ -1,11 +1,11 @@
 //! Gradients of every parameter, summed over a step.
 
 use super::Field;
-use crate::nerf::simd::Line;
+use crate::nerf::simd::{Line, Lines};
 
 /// Gradient of the hash grid.
 pub(in crate::nerf) struct GridGradient {
-    pub table: Vec<Line>,
+    pub table: Lines,
     /// One a line: 1 if the line has a gradient.
     pub touched: Vec<u8>,
 }
@@ -26,7 +26,7 @@ impl Gradients {
         let lines = field.grid.table.len();
         let sums = |layer: &super::Layer| vec![Line::ZERO; layer.inputs * layer.outputs];
         Gradients {
-            grid: GridGradient { table: vec![Line::ZERO; lines], touched: vec![0; lines] },
+            grid: GridGradient { table: Lines::new(lines), touched: vec![0; lines] },
             density_in: sums(&field.density_in),
             density_out: sums(&field.density_out),
             colour_in: sums(&field.colour_in),

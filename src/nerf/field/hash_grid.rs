@@ -4,7 +4,7 @@
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::nerf::simd::{LANES, LINE, Lanes, Line};
+use crate::nerf::simd::{LANES, LINE, Lanes, Lines};
 
 /// Levels, from 16 to 128 cells along an edge of the cube.
 pub(in crate::nerf) const LEVELS: usize = 5;
@@ -29,7 +29,7 @@ pub(in crate::nerf) struct Level {
 pub(in crate::nerf) struct HashGrid {
     pub levels: [Level; LEVELS],
     /// Entries of four floats, level after level.
-    pub table: Vec<Line>,
+    pub table: Lines,
 }
 
 /// For the samples of a block and one level: the four pairs of neighbours along x.
@@ -56,7 +56,7 @@ impl HashGrid {
             next += entries.next_multiple_of((LINE / ENTRY) as u32);
             level
         });
-        let mut table = vec![Line::ZERO; next as usize * ENTRY / LINE];
+        let mut table = Lines::new(next as usize * ENTRY / LINE);
         for x in table.iter_mut().flat_map(|line| &mut line.0) {
             *x = (rng.random::<f32>() - 0.5) * 2e-4;
         }

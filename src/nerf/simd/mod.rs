@@ -12,6 +12,7 @@ mod avx512;
 mod dispatch;
 mod instruction_set;
 mod lanes;
+mod lines;
 mod portable;
 
 #[cfg(target_arch = "x86_64")]
@@ -22,6 +23,7 @@ pub(super) use dispatch::kernel;
 pub use instruction_set::InstructionSet;
 pub(super) use instruction_set::Kind;
 pub(super) use lanes::{LANES, LINE, Lanes, Line, flat, flat_mut};
+pub(super) use lines::Lines;
 pub(super) use portable::Portable;
 
 /// Adding and taking away this constant rounds an `f32` below 2^22 to an integer;

@@ -75,7 +75,7 @@ fn analytic(set: InstructionSet, case: &Case) -> [Vec<f32>; 5] {
     composite_backward(&mut blocks, &pixels, &mut [Pixel::EMPTY; RAYS]);
     let mut g = Gradients::new(&case.field);
     backward(set, &case.field, &mut blocks, &mut g);
-    for (touched, line) in g.grid.touched.iter().zip(&g.grid.table) {
+    for (touched, line) in g.grid.touched.iter().zip(g.grid.table.iter()) {
         assert!(*touched == 1 || line.0 == [0.0; 16], "a line with a gradient is not marked");
     }
     let sum = |lines: &[Line]| lines.iter().map(|line| line.0.iter().sum()).collect();
