@@ -90,15 +90,18 @@ impl Planner {
         let begin = Instant::now();
         let request = convert::prediction_request(json)?;
         let decoded = begin.elapsed();
-        let warnings = plan::check(&request)?;
+        let mut warnings = plan::check(&request)?;
         let predictor =
             self.predictor.as_ref().map_err(|cause| plan::PlanError::NoPredictor { cause: cause.clone() })?;
-        let prediction = predict_count(&request, predictor)?;
+        let (prediction, doubts) = predict_count(&request, predictor)?;
+        warnings.extend(doubts);
         let timings =
             [("decode", decoded), ("predict", begin.elapsed() - decoded), ("total", begin.elapsed())];
         Ok(PredictionAnswer {
             predicted: prediction.rounded,
             raw: prediction.raw,
+            interval: prediction.interval,
+            novelty: prediction.novelty,
             model: self.model_hash().to_owned(),
             expected_image_poses: convert::expected_views(&expected_views(
                 &request.view_space(),

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
 use prv::imaging::{Camera, DEFAULT_MAX_PIXELS, decode_image};
+use prv::plan::{Warning, blank_images, unlike_training};
 use prv::predict::{MAX_IMAGES, PhotoInput, PredictError, Predictor, model_bytes};
 
 use serde_json::json;
@@ -48,34 +49,44 @@ pub fn run(args: &Args) -> CliResult {
     };
     let predictor = Predictor::load(&model_bytes(args.model.as_deref())?, threads, 1)?;
     let images = args.images.iter().map(|path| decode(path)).collect::<Result<Vec<_>, _>>()?;
-    let prediction = if args.crops {
-        predictor.predict_crops(&images)
+    let named = |error| name_photo(error, &args.images);
+    let crops = if args.crops {
+        images
     } else {
         let photos: Vec<_> = images.into_iter().map(|image| photo(image, args)).collect();
-        predictor.predict(&photos)
+        predictor.crops(&photos).map_err(named)?
     };
-    let prediction = prediction.map_err(|error| name_photo(error, &args.images))?;
+    let prediction = predictor.predict_crops(&crops).map_err(named)?;
     let info = predictor.info();
     let assumed = "no camera given: a RealSense D435's colour camera (1280x720, fx 915.607) is assumed";
-    let warnings: Vec<(&str, &str)> =
-        (args.camera.is_none() && !args.crops).then_some(("default_camera", assumed)).into_iter().collect();
-    warnings.iter().for_each(|(_, message)| eprintln!("warning: {message}"));
+    let mut warnings = Vec::new();
+    if args.camera.is_none() && !args.crops {
+        warnings.push(Warning::new("default_camera", assumed));
+    }
+    warnings.extend(unlike_training(prediction.novelty));
+    warnings.extend(blank_images(&crops));
+    warnings.iter().for_each(|warning| eprintln!("warning: {}", warning.message));
     if args.json {
         let mut answer = json!({
             "raw": prediction.raw,
             "predicted": prediction.rounded,
             "view_count": prediction.rounded,
+            "interval": prediction.interval,
+            "novelty": prediction.novelty,
             "label_range": [prediction.label_min, prediction.label_max],
             "model": {
                 "sha256": info.sha256, "encoder": info.encoder, "trained_on": info.trained_on,
                 "held_out_l1": info.held_out_l1, "best_constant_l1": info.best_constant_l1,
             },
         });
-        answer["warnings"] =
-            warnings.iter().map(|(code, message)| json!({"code": code, "message": message})).collect();
+        answer["warnings"] = warnings.iter().map(|w| json!({"code": w.code, "message": w.message})).collect();
         println!("{answer:#}");
     } else {
-        println!("{} views ({:.2})", prediction.rounded, prediction.raw);
+        let [low, high] = prediction.interval;
+        println!(
+            "{} views ({:.2}); 80 % of objects lie within {low} to {high}",
+            prediction.rounded, prediction.raw
+        );
         eprintln!(
             "{} trained on {} objects; on others it was off by {:.1} views on average, the best constant by {:.1}",
             info.encoder, info.trained_on, info.held_out_l1, info.best_constant_l1

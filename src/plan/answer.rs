@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::Trajectory;
 use crate::geometry::Pose;
+use crate::predict::Prediction;
 
 /// A plan.
 #[derive(Clone, Debug)]
@@ -76,10 +77,8 @@ pub struct MotionFigures {
 /// The number of views.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewCount {
-    /// The network's number, rounded.
-    pub predicted: Option<u32>,
-    /// The network's number.
-    pub raw: Option<f64>,
+    /// The network's answer; `None` where the number was given.
+    pub prediction: Option<Prediction>,
     /// The number of views in the set.
     pub used: usize,
 }

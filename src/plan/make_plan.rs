@@ -25,23 +25,20 @@ pub fn make_plan(request: &PlanRequest, predictor: Result<&Predictor, &str>) -> 
     let (count, views, expected) = match &request.source {
         ViewSource::Photos(images) => {
             let predictor = predictor.map_err(|cause| PlanError::NoPredictor { cause: cause.to_owned() })?;
-            let prediction = predict_count(request, predictor)?;
+            let (prediction, doubts) = predict_count(request, predictor)?;
+            warnings.extend(doubts);
             clock.lap("predict");
-            let count = ViewCount {
-                predicted: Some(prediction.rounded),
-                raw: Some(prediction.raw),
-                used: prediction.rounded as usize,
-            };
+            let count = ViewCount { prediction: Some(prediction), used: prediction.rounded as usize };
             let expected = expected_views(&request.view_space(), images.len());
             (count, view_poses::set(request, count.used)?, Some(expected))
         }
         ViewSource::Count(used) => {
-            let count = ViewCount { predicted: None, raw: None, used: *used };
+            let count = ViewCount { prediction: None, used: *used };
             (count, view_poses::set(request, *used)?, None)
         }
         ViewSource::Initial { five } => {
             let views = view_poses::initial(request, *five);
-            (ViewCount { predicted: None, raw: None, used: views.poses.len() }, views, None)
+            (ViewCount { prediction: None, used: views.poses.len() }, views, None)
         }
     };
     clock.lap("views");

@@ -13,6 +13,7 @@ mod free_path;
 mod hand_eye;
 mod keep_out;
 mod make_plan;
+mod photo_content;
 mod photos;
 mod predict_count;
 mod random_cell;
@@ -31,8 +32,9 @@ pub use answer::{
 pub use check::{check, length};
 pub use error::{FieldValue, PlanError};
 pub use make_plan::make_plan;
+pub use photo_content::{blank_images, unlike_training};
 pub use photos::{MAX_PHOTOS, expected_views};
-pub use predict_count::{CountPrediction, predict_count};
+pub use predict_count::predict_count;
 pub use random_cell::{RandomCells, RandomOutcome};
 pub use reachability::{Place, Reachability, reachability};
 pub use request::{Arm, ObjectSphere, PlanRequest, UnreachableViews, ViewShell, ViewSource};

@@ -2,10 +2,12 @@
 //!
 //! [`crop`] turns a photo into the network's input, [`Predictor`] runs the network in ONNX Runtime. The network comes
 //! out of `models/training`; [`ModelInfo`] is what its file says about it. The same photos give the same number,
-//! whatever runs beside.
+//! whatever runs beside. With the number come the interval that holds 80 % of the labels, and how unlike the objects
+//! trained on the photos are.
 
 mod crop;
 mod error;
+mod interval;
 mod model_info;
 mod pixels;
 mod predictor;
@@ -20,6 +22,7 @@ mod predictor_tests;
 
 pub use crop::{CROP_HALF_SIZE_M, crop};
 pub use error::PredictError;
+pub use interval::IntervalOffsets;
 pub use model_info::ModelInfo;
 pub use predictor::{MAX_IMAGES, PhotoInput, Prediction, Predictor};
 pub use runtime::DYLIB_VARIABLE;

@@ -5,7 +5,7 @@ use ort::value::TensorRef;
 
 use super::PredictError;
 use super::crop::crop;
-use super::model_info::{INPUT, ModelInfo, OUTPUT};
+use super::model_info::{INPUT, ModelInfo, NOVELTY, VIEW_COUNT};
 use super::session_pool::SessionPool;
 use crate::geometry::Point;
 use crate::imaging::Camera;
@@ -66,6 +66,10 @@ pub struct Prediction {
     pub raw: f64,
     /// The answer as a number of views.
     pub rounded: u32,
+    /// Least and largest number of views of the interval that holds 80 % of labels; `rounded` lies inside.
+    pub interval: [u32; 2],
+    /// How unlike the objects trained on the photos are: 1 is what one in a hundred of their own photos exceeds.
+    pub novelty: f64,
     /// The smallest answer this model can give.
     pub label_min: u32,
     /// The largest answer this model can give.
@@ -109,16 +113,21 @@ impl Predictor {
     /// # Errors
     /// [`PredictError::ImageCount`], or the first photo whose size, camera or distance is wrong.
     pub fn predict(&self, photos: &[PhotoInput]) -> Result<Prediction, PredictError> {
+        self.predict_crops(&self.crops(photos)?)
+    }
+
+    /// One to five photos as the network sees them.
+    ///
+    /// # Errors
+    /// As [`Self::predict`].
+    pub fn crops(&self, photos: &[PhotoInput]) -> Result<Vec<RgbaImage>, PredictError> {
         check_count(photos.len())?;
         for (index, photo) in photos.iter().enumerate() {
             photo.check(index)?;
         }
         let size = self.info.input_size;
-        let crops: Vec<_> = photos
-            .iter()
-            .map(|photo| crop(&photo.image, &photo.camera, &photo.center_in_camera, size))
-            .collect();
-        self.predict_crops(&crops)
+        let cut = |photo: &PhotoInput| crop(&photo.image, &photo.camera, &photo.center_in_camera, size);
+        Ok(photos.iter().map(cut).collect())
     }
 
     /// As [`Self::predict`], for photos already cut by [`crop`] to the model's input size.
@@ -140,31 +149,45 @@ impl Predictor {
         let images: Vec<&RgbaImage> = crops.iter().chain(twice).collect();
         let data: Vec<f32> = images.iter().flat_map(|image| channels_on_white(image)).collect();
         let shape = [images.len(), 3, side as usize, side as usize];
-        let raw = self.run(shape, &data)?;
+        let (raw, novelty) = self.run(shape, &data)?;
         let (low, high) = (self.info.label_min, self.info.label_max);
-        let bound = format!("within the label range {low} to {high}");
         let clamped = raw.clamp(f64::from(low), f64::from(high));
         if raw.is_nan() || (raw - clamped).abs() > 1e-3 {
-            return Err(PredictError::Model { field: "answer".to_owned(), value: raw.to_string(), bound });
+            return Err(unusable("answer", raw, format!("within the label range {low} to {high}")));
         }
-        Ok(Prediction { raw: clamped, rounded: clamped.round() as u32, label_min: low, label_max: high })
+        if !(novelty.is_finite() && novelty >= 0.0) {
+            return Err(unusable("novelty", novelty, "a finite number of at least 0".to_owned()));
+        }
+        Ok(Prediction {
+            raw: clamped,
+            rounded: clamped.round() as u32,
+            interval: self.info.interval.around(clamped),
+            novelty,
+            label_min: low,
+            label_max: high,
+        })
     }
 
-    fn run(&self, shape: [usize; 4], data: &[f32]) -> Result<f64, PredictError> {
-        let run = |session: &mut ort::session::Session| -> ort::Result<Option<f32>> {
+    /// The model's answer and its score of unlikeness.
+    fn run(&self, shape: [usize; 4], data: &[f32]) -> Result<(f64, f64), PredictError> {
+        let run = |session: &mut ort::session::Session| -> ort::Result<Option<(f64, f64)>> {
             let outputs = session.run(ort::inputs![INPUT => TensorRef::from_array_view((shape, data))?])?;
-            let Some(output) = outputs.get(OUTPUT) else { return Ok(None) };
-            let (_, values) = output.try_extract_tensor::<f32>()?;
-            Ok(values.first().copied())
+            let number = |name: &str| -> ort::Result<Option<f64>> {
+                let Some(output) = outputs.get(name) else { return Ok(None) };
+                let (_, values) = output.try_extract_tensor::<f32>()?;
+                Ok(values.first().copied().map(f64::from))
+            };
+            Ok(number(VIEW_COUNT)?.zip(number(NOVELTY)?))
         };
-        let answer = self
-            .sessions
+        self.sessions
             .with(run)
-            .map_err(|error| PredictError::Session { action: "run", reason: error.to_string() })?;
-        answer
-            .map(f64::from)
+            .map_err(|error| PredictError::Session { action: "run", reason: error.to_string() })?
             .ok_or_else(|| PredictError::Session { action: "run", reason: "it gave no answer".to_owned() })
     }
+}
+
+fn unusable(field: &str, value: f64, bound: String) -> PredictError {
+    PredictError::Model { field: field.to_owned(), value: value.to_string(), bound }
 }
 
 fn check_count(count: usize) -> Result<(), PredictError> {

@@ -130,12 +130,31 @@ fn a_model_of_another_kind_is_refused_at_load_with_what_is_wrong() {
         (model!("label_range_reversed"), "metadata prv.label_max"),
         (model!("another_size"), "input"),
         (model!("another_input"), "input"),
+        (model!("old_format"), "metadata prv.format"),
+        (model!("without_novelty"), "output"),
+        (model!("interval_beside_the_answer"), "metadata prv.interval_low"),
         (model!("another_window"), "metadata prv.crop_half_size_m"),
         (model!("answers_out_of_range"), "answer"),
     ] {
         let error = Predictor::load(model, 1, 1).err().unwrap();
         assert!(matches!(&error, PredictError::Model { field, .. } if field == wanted), "{error}");
     }
+}
+
+#[test]
+fn a_model_of_the_format_before_is_refused_with_what_to_do() {
+    let error = Predictor::load(model!("old_format"), 1, 1).err().unwrap();
+    assert!(error.to_string().contains("export the model again"), "{error}");
+}
+
+#[test]
+fn the_interval_is_the_models_and_the_novelty_its_second_output() {
+    let predictor = tiny();
+    let answer = predictor.predict_crops(&[filled([128, 128, 128, 255])]).unwrap();
+    let ends = [(answer.raw - 6.5).ceil(), (answer.raw + 9.25).floor()].map(|end| end as u32);
+    assert_eq!(answer.interval, ends);
+    assert!((answer.novelty - (2.0 - 2.0 * 128.0 / 255.0)).abs() < 1e-5, "{}", answer.novelty);
+    assert_eq!(predictor.info().radius_m, (0.07, 0.12));
 }
 
 #[test]

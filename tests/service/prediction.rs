@@ -47,7 +47,7 @@ async fn a_prediction_states_the_poses_it_expects_and_warns_of_others() {
     poses[0]["position"][2] = json!(poses[0]["position"][2].as_f64().unwrap() + 0.06);
     let moved =
         server.post_json("/v1/predictions", &with(request.clone(), json!({"image_poses": poses}))).await;
-    assert_eq!(codes(&moved), ["unexpected_image_pose"]);
+    assert_eq!(codes(&moved), ["unexpected_image_pose", "object_cut_off"]);
     assert!(moved["warnings"][0]["message"].as_str().unwrap().contains("images[0]"));
 
     poses.pop();
@@ -58,6 +58,13 @@ async fn a_prediction_states_the_poses_it_expects_and_warns_of_others() {
     let plan = server.post_json("/v1/plans", &request).await;
     assert_eq!(plan["view_count"]["predicted"], first["predicted"]);
     assert_eq!(plan["view_count"]["raw"], first["raw"]);
+    assert_eq!(plan["view_count"]["interval"], first["interval"]);
+    assert_eq!(plan["view_count"]["novelty"], first["novelty"]);
+    let ends =
+        [(first["raw"].as_f64().unwrap() - 6.5).ceil(), (first["raw"].as_f64().unwrap() + 9.25).floor()];
+    assert_eq!(first["interval"], json!(ends.map(|end| end as u32)));
+    let novelty = first["novelty"].as_f64().unwrap();
+    assert!(0.0 < novelty && novelty < 1.0, "{novelty}");
     assert_eq!(plan["views"].as_array().unwrap().len() as u64, first["predicted"].as_u64().unwrap());
     assert_eq!(plan["expected_image_poses"], first["expected_image_poses"]);
 }

@@ -6,7 +6,7 @@ import os
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 
 # Version of the model file's input, output and metadata; the service reads exactly this one.
-FORMAT = "1"
+FORMAT = "2"
 
 # Half the side of the square window, metres, that `prv inputs` and the service cut out of a photo.
 CROP_HALF_SIZE_M = 0.135

@@ -78,14 +78,16 @@ class PRVNet(nn.Module):
 
 
 class Exported(nn.Module):
-    """The model file's graph: images [n, 3, S, S] with n >= 2 to one view count [1]."""
+    """The model file's graph: images [n, 3, S, S] with n >= 2 to one view count [1] and one novelty [1]."""
 
-    def __init__(self, network: PRVNet):
+    def __init__(self, network: PRVNet, novelty: nn.Module):
         super().__init__()
         self.network = network
+        self.novelty = novelty
 
     def forward(self, images):
-        features = mean_and_variance(self.network.encoder(images).unsqueeze(0))
+        each = self.network.encoder(images)
+        features = mean_and_variance(each.unsqueeze(0))
         logits = torch.cat([head(features) for head in self.network.heads], 1)
         span = self.network.high - self.network.low
-        return (self.network.low + span * torch.sigmoid(logits)).mean(1)
+        return (self.network.low + span * torch.sigmoid(logits)).mean(1), self.novelty(each)

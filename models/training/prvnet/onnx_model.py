@@ -5,6 +5,8 @@ from pathlib import Path
 import numpy as np
 import onnxruntime
 
+from .interval import bounds
+
 
 class OnnxModel:
     def __init__(self, model, threads: int = 2):
@@ -14,8 +16,17 @@ class OnnxModel:
         self.session = onnxruntime.InferenceSession(source, options, providers=["CPUExecutionProvider"])
         self.metadata = self.session.get_modelmeta().custom_metadata_map
 
-    def predict(self, images: np.ndarray) -> float:
-        """Images [n, 3, S, S] in 0..1; a single one is fed twice."""
+    def answer(self, images: np.ndarray) -> tuple[float, float]:
+        """View count and novelty of images [n, 3, S, S] in 0..1; a single one is fed twice."""
         if len(images) == 1:
             images = np.concatenate([images, images])
-        return float(self.session.run(["view_count"], {"images": images.astype(np.float32)})[0][0])
+        count, novelty = self.session.run(["view_count", "novelty"], {"images": images.astype(np.float32)})
+        return float(count[0]), float(novelty[0])
+
+    def predict(self, images: np.ndarray) -> float:
+        """The view count alone."""
+        return self.answer(images)[0]
+
+    def interval(self, answer: float) -> tuple[int, int]:
+        """The interval around an answer, as the service states it."""
+        return bounds(answer, *(float(self.metadata[f"prv.interval_{end}"]) for end in ("low", "high")))

@@ -136,6 +136,25 @@ def epoch_of(network, source, rows, args, epoch, optimizer, scheduler, device) -
     return total / len(rows)
 
 
+def optimizer_of(network, args, count):
+    """Optimiser and learning rates for `count` rows."""
+    groups = [{"params": network.heads.parameters(), "lr": args.lr}]
+    if not args.freeze:
+        groups.append({"params": network.encoder.parameters(), "lr": args.encoder_lr * args.batch / 256})
+    optimizer = torch.optim.AdamW(groups, betas=(0.9, 0.95), weight_decay=args.weight_decay)
+    steps = max(1, -(-count // args.batch)) * args.epochs
+    warm = max(1, steps // 20)
+    scheduler = torch.optim.lr_scheduler.LambdaLR(
+        optimizer, lambda step: min((step + 1) / warm, 0.5 + 0.5 * math.cos(math.pi * min(1.0, step / steps)))
+    )
+    return optimizer, scheduler
+
+
+def trained_state(network, config) -> dict:
+    """What is kept of a network: a frozen encoder is what the package gives, so only what was trained."""
+    return (network.heads if config["freeze"] else network).state_dict()
+
+
 def train(args) -> dict:
     torch.set_num_threads(args.threads)
     torch.manual_seed(args.seed)
@@ -151,7 +170,7 @@ def train(args) -> dict:
         raise SystemExit(f"{args.out} holds a run with other settings or labels; give another --out")
     known.write_text(json.dumps(config, indent=1))
     # Beside the settings, since files may move without changing the run.
-    where = {"labels": str(args.labels.resolve()), "inputs": str(args.inputs.resolve())}
+    where = {"labels": str(args.labels.resolve()), "inputs": str(args.inputs.resolve()), "bank": str(args.bank.resolve())}
     (args.out / "where.json").write_text(json.dumps(where))
 
     device = torch.device(args.device)
@@ -164,17 +183,7 @@ def train(args) -> dict:
         torch.set_num_threads(1)  # the heads' matrices are too small to share
     else:
         source = Photos(args.inputs, rows, args.size)
-    groups = [{"params": network.heads.parameters(), "lr": args.lr}]
-    if not args.freeze:
-        groups.append({"params": network.encoder.parameters(), "lr": args.encoder_lr * args.batch / 256})
-    optimizer = torch.optim.AdamW(groups, betas=(0.9, 0.95), weight_decay=args.weight_decay)
-    steps = max(1, -(-len(train_rows) // args.batch)) * args.epochs
-    warm = max(1, steps // 20)
-    scheduler = torch.optim.lr_scheduler.LambdaLR(
-        optimizer, lambda step: min((step + 1) / warm, 0.5 + 0.5 * math.cos(math.pi * min(1.0, step / steps)))
-    )
-    # A frozen encoder is what the package gives: only what was trained is kept.
-    kept = (lambda: network.heads.state_dict()) if args.freeze else network.state_dict
+    optimizer, scheduler = optimizer_of(network, args, len(train_rows))
     load = network.heads.load_state_dict if args.freeze else network.load_state_dict
 
     last, best, first_epoch = args.out / "last.pt", float("inf"), 0
@@ -197,13 +206,13 @@ def train(args) -> dict:
         validation = evaluate(network, source, validation_rows, device)
         if validation < best:
             best = validation
-            save({"weights": kept(), "config": config, "epoch": epoch + 1, "validation_l1": best}, args.out / "best.pt")
+            save({"weights": trained_state(network, config), "config": config, "epoch": epoch + 1, "validation_l1": best}, args.out / "best.pt")
         with open(log, "a", newline="") as file:
             csv.writer(file).writerow([epoch + 1, f"{error:.4f}", f"{validation:.4f}", f"{best:.4f}"])
         # Frozen epochs take less time than writing the state does.
         if not args.freeze or (epoch + 1) % 10 == 0 or epoch + 1 == args.epochs:
             state = {"optimizer": optimizer.state_dict(), "scheduler": scheduler.state_dict()}
-            save({"weights": kept(), **state, "best": best, "epoch": epoch + 1}, last)
+            save({"weights": trained_state(network, config), **state, "best": best, "epoch": epoch + 1}, last)
         bar.set_postfix(train=f"{error:.2f}", validation=f"{validation:.2f}", best=f"{best:.2f}")
     return config
 

@@ -69,14 +69,20 @@ def test_labels_become_a_model_file(tmp_path, freeze):
         train.train(train.arguments(list(map(str, [*options, "--batch", 16]))))
 
     file = tmp_path / "prvnet.onnx"
-    export.main(["--run", str(tmp_path / "run"), "--out", str(file)])
+    export.main(["--run", str(tmp_path / "run"), "--out", str(file), "--turns", "2"])
     onnx_model = OnnxModel(file)
     config = json.loads((tmp_path / "run" / "config.json").read_text())
     assert onnx_model.metadata["prv.trained_on"] == str(len(config["rows"]["train"]))
     assert config["range"][0] <= onnx_model.predict(np.random.rand(3, 3, 64, 64)) <= config["range"][1]
 
+    answer, novelty = onnx_model.answer(np.random.rand(3, 3, 64, 64))
+    low, high = onnx_model.interval(answer)
+    assert low <= round(answer) <= high and novelty >= 0
+    # The second export takes the errors that the first has measured.
+    residuals = (tmp_path / "run" / "residuals.csv").read_text()
+    assert residuals.count("\n") == 1 + len(config["rows"]["train"]) + len(config["rows"]["validation"])
     path = tmp_path / "CARD.md"
     path.write_text("# Card\n\nby hand\n")
     for _ in range(2):
         card.main(["--run", str(tmp_path / "run"), "--model", str(file), "--card", str(path)])
-    assert path.read_text().count("best constant") == 1 and "by hand" in path.read_text()
+    assert path.read_text().count("best constant") == 1 and "% interval reaches" in path.read_text() and "by hand" in path.read_text()

@@ -18,8 +18,10 @@ pub fn plan_answer(id: String, plan: Plan) -> PlanAnswer {
     PlanAnswer {
         id,
         view_count: ViewCountJson {
-            predicted: plan.count.predicted,
-            raw: plan.count.raw,
+            predicted: plan.count.prediction.map(|prediction| prediction.rounded),
+            raw: plan.count.prediction.map(|prediction| prediction.raw),
+            interval: plan.count.prediction.map(|prediction| prediction.interval),
+            novelty: plan.count.prediction.map(|prediction| prediction.novelty),
             used: plan.count.used as u32,
         },
         views: plan.views.into_iter().enumerate().map(view_json).collect(),

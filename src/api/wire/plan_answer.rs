@@ -106,6 +106,12 @@ pub struct ViewCountJson {
     pub predicted: Option<u32>,
     /// The network's number before rounding; null without prediction.
     pub raw: Option<f64>,
+    /// Least and largest number of views between which 80 % of objects' labels lie; null without prediction.
+    #[serde(default)]
+    pub interval: Option<[u32; 2]>,
+    /// How unlike the objects trained on the photos are; beyond 1 a warning says so; null without prediction.
+    #[serde(default)]
+    pub novelty: Option<f64>,
     /// The number of views in the set.
     pub used: u32,
 }

@@ -1,0 +1,59 @@
+"""How unlike the objects trained on photos are."""
+
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch")
+pytestmark = pytest.mark.torch
+
+from prvnet import novelty  # noqa: E402
+
+DIM, RANK = 60, 5
+
+
+def features(rng, mixing, rows, shoots=8):
+    """Few causes, an object's own and a shoot's, behind many features, some with heavy tails."""
+    causes = rng.normal(size=(rows, 1, 1, RANK)) + 0.4 * rng.normal(size=(rows, shoots, 5, RANK))
+    noise = 0.2 * rng.standard_t(3, (rows, shoots, 5, DIM))
+    return (causes @ mixing + noise).astype(np.float32)
+
+
+@pytest.fixture(scope="module")
+def known():
+    rng = np.random.default_rng(0)
+    mixing = rng.normal(size=(RANK, DIM))
+    score = novelty.fit(features(rng, mixing, 120), [f"object-{k}" for k in range(120)]).eval()
+    return score, mixing
+
+
+def scores(score, table):
+    with torch.no_grad():
+        return np.array([float(score(torch.from_numpy(photos))[0]) for row in table for photos in row])
+
+
+@pytest.mark.parametrize("photos", [2, 3, 5])
+def test_one_in_a_hundred_of_new_objects_shoots_scores_above_one(known, photos):
+    score, mixing = known
+    new = features(np.random.default_rng(1), mixing, 60)[:, :, :photos]
+    assert np.mean(scores(score, new) > 1) < 0.05
+
+
+def test_a_single_photo_fed_twice_is_judged_as_one(known):
+    score, mixing = known
+    new = features(np.random.default_rng(2), mixing, 60)
+    twice = np.repeat(new[:, :, :1], 2, axis=2)
+    assert np.mean(scores(score, twice) > 1) < 0.05
+    assert score.scale[1] > score.scale[2] > score.scale[5]
+
+
+def test_other_causes_behind_the_same_spread_are_novel(known):
+    score, _ = known
+    rng = np.random.default_rng(3)
+    assert np.mean(scores(score, features(rng, rng.normal(size=(RANK, DIM)), 20)[:, :, :3]) > 1) > 0.95
+
+
+def test_the_same_data_gives_the_same_score(known):
+    _, mixing = known
+    table = features(np.random.default_rng(4), mixing, 30)
+    first, second = (novelty.fit(table, [str(k) for k in range(30)]) for _ in range(2))
+    assert all(torch.equal(a, b) for a, b in zip(first.state_dict().values(), second.state_dict().values()))
