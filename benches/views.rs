@@ -6,6 +6,7 @@ use std::hint::black_box;
 
 use common::{median_time, row};
 use prv::api::{PlanRequestJson, Planner, ResolvedRequest, parse_json, reachability_of};
+use prv::motion::Stop;
 use prv::views::{Band, best_known_rad, tammes};
 
 /// Least separation asked for on the closed hemisphere, degrees.
@@ -65,7 +66,8 @@ fn adaptation() {
         let median = times.get(times.len() / 2).copied().unwrap_or(f64::NAN);
         row(&format!("adapting {n} views, UR5e, {roll} roll"), median, "ms", bound_ms);
         if n == 35 {
-            let seconds = median_time(5, 1, || drop(black_box(reachability_of(&json, None, None))));
+            let seconds =
+                median_time(5, 1, || drop(black_box(reachability_of(&json, None, None, &Stop::default()))));
             row(&format!("reachability of the band, UR5e, {roll} roll"), seconds, "s", Some(1.0));
         }
     }

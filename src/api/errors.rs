@@ -202,6 +202,7 @@ impl From<MotionError> for Problem {
                 }
             }
             MotionError::BadOrder { .. } => Problem::internal(text),
+            MotionError::Stopped => Problem::unavailable("stopped", text, Some(5)),
         }
     }
 }

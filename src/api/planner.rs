@@ -8,7 +8,8 @@ use sha2::{Digest, Sha256};
 use super::convert;
 use super::problem::Problem;
 use super::wire::{PlanAnswer, PlanRequestJson, PredictionAnswer, PredictionRequest, ReachabilityAnswer};
-use crate::plan::{self, expected_views, make_plan, predict_count};
+use crate::motion::Stop;
+use crate::plan::{self, expected_views, make_plan_until, predict_count};
 use crate::predict::{Predictor, model_bytes};
 
 /// A request in its canonical form: requests that mean the same are the same, and so are their plans.
@@ -70,12 +71,20 @@ impl Planner {
     /// # Errors
     /// A [`Problem`] for what cannot be planned.
     pub fn plan(&self, resolved: &ResolvedRequest) -> Result<PlanAnswer, Problem> {
+        self.plan_until(resolved, &Stop::default())
+    }
+
+    /// [`Planner::plan`], which ends with a problem soon after `stop` is asked for.
+    ///
+    /// # Errors
+    /// A [`Problem`] for what cannot be planned.
+    pub fn plan_until(&self, resolved: &ResolvedRequest, stop: &Stop) -> Result<PlanAnswer, Problem> {
         let begin = Instant::now();
         let id = self.plan_id(resolved)?;
         let request = convert::plan_request(&resolved.0)?;
         let decoded = begin.elapsed();
         let predictor = self.predictor.as_ref().map_err(String::as_str);
-        let mut plan = make_plan(&request, predictor)?;
+        let mut plan = make_plan_until(&request, predictor, stop)?;
         // From here the total includes hashing and decoding the request.
         plan.timings.retain(|(name, _)| *name != "total");
         plan.timings.extend([("decode", decoded), ("total", begin.elapsed())]);
@@ -121,7 +130,8 @@ pub fn reachability_of(
     json: &PlanRequestJson,
     elevations: Option<usize>,
     azimuths: Option<usize>,
+    stop: &Stop,
 ) -> Result<ReachabilityAnswer, Problem> {
     let request = convert::reachability_request(json)?;
-    Ok(convert::reachability_answer(&plan::reachability(&request, elevations, azimuths)?))
+    Ok(convert::reachability_answer(&plan::reachability_until(&request, elevations, azimuths, stop)?))
 }

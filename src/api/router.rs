@@ -68,7 +68,7 @@ async fn time_limit(State(limit): State<Duration>, request: Request, next: Next)
     match tokio::time::timeout(limit, next.run(request)).await {
         Ok(response) => response,
         Err(_) => {
-            // Work that has begun goes on and is stored: asking again finds it.
+            // What was under way has been asked to stop.
             let text = format!("not finished within {} s; ask again", limit.as_secs_f64());
             Problem::unavailable("timeout", text, Some(5)).into_response()
         }

@@ -92,7 +92,7 @@ fn file(plan: &Path, request: Option<&Path>) -> Result<CheckAnswer, Box<dyn std:
     let checked = || {
         let request: PlanRequestJson = parse_json(&request)?;
         let plan: CheckedPlanJson = parse_json(&plan)?;
-        check_plan(request, plan)
+        check_plan(request, plan, &prv::motion::Stop::default())
     };
     Ok(checked().map_err(|problem| serde_json::to_string(&problem).unwrap_or_default())?)
 }

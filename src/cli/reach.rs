@@ -47,7 +47,7 @@ pub fn run(args: &Args) -> CliResult {
     };
     let ask = || {
         let request: PlanRequestJson = parse_json(&bytes)?;
-        reachability_of(&request, args.elevations, args.azimuths)
+        reachability_of(&request, args.elevations, args.azimuths, &prv::motion::Stop::default())
     };
     let answer = match ask() {
         Ok(answer) => answer,

@@ -4,11 +4,13 @@ use std::f64::consts::TAU;
 
 use nalgebra::UnitQuaternion;
 
+use super::contact::Contact;
 use super::joints::{Joints, joints_from};
 use super::plan::SkipReason;
+use super::reach::KnownState;
 use super::scene::{Placement, Scene};
 use crate::geometry::{Pose, Vector};
-use crate::robot::{InverseFailure, UnreachableReason, nearest_wrap};
+use crate::robot::{InverseFailure, InverseSolutions, UnreachableReason, nearest_wrap};
 
 /// A joint state that takes a view, up to whole turns of its joints.
 #[derive(Clone, Copy, Debug)]
@@ -24,24 +26,50 @@ pub(crate) fn rolled(base_from_camera: &Pose, roll_rad: f64) -> Pose {
     pose
 }
 
-/// All collision-free states of a view over `rolls_rad` and all branches of the inverse kinematics.
+/// All collision-free states of a view over `rolls_rad` and all branches of the inverse kinematics;
+/// those found until the work ends, or [`SkipReason::WorkLimit`] where none was.
 ///
 /// Whole turns are left to the choice of states: they move no geometry, so one check serves all.
+/// `known`, where it is one, is a state to search from too.
 pub(crate) fn candidates(
     scene: &Scene,
     base_from_camera: &Pose,
     rolls_rad: &[f64],
     seeds: &[Vec<f64>],
+    known: Option<&KnownState>,
     placement: &mut Placement,
 ) -> Result<Vec<Candidate>, SkipReason> {
     let camera_from_flange = scene.cell.flange_from_camera.inverse();
+    let kinematics = scene.cell.robot.kinematics.as_ref();
     let mut free = Vec::new();
     let mut colliding: Vec<Joints> = Vec::new();
     let mut best_failure: Option<InverseFailure> = None;
     let mut best_limit: Option<(SkipReason, f64)> = None;
+    // A search is worth doing once, where the last joint does the rest.
+    let last_joint_rolls = scene.last_joint_rolls.filter(|_| !kinematics.is_closed_form());
+    let mut level: Option<InverseSolutions> = None;
     for &roll_rad in rolls_rad {
-        let base_from_flange = rolled(base_from_camera, roll_rad) * camera_from_flange;
-        let answer = scene.cell.robot.kinematics.inverse(&base_from_flange, seeds);
+        if placement.work.is_over() {
+            break;
+        }
+        let answer = match (&level, last_joint_rolls) {
+            (Some(level), Some(turn)) => with_last_turned(level, turn * roll_rad),
+            _ => {
+                placement.work.spend(scene.inverse_cost);
+                let base_from_flange = rolled(base_from_camera, roll_rad) * camera_from_flange;
+                match known.filter(|known| last_joint_rolls.is_some() || known.roll_rad == roll_rad) {
+                    Some(known) => {
+                        let mut from = known.joints_rad.clone();
+                        if let (Some(turn), Some(last)) = (last_joint_rolls, from.last_mut()) {
+                            *last += turn * (roll_rad - known.roll_rad);
+                        }
+                        let seeds: Vec<Vec<f64>> = seeds.iter().cloned().chain([from]).collect();
+                        kinematics.inverse(&base_from_flange, &seeds)
+                    }
+                    None => kinematics.inverse(&base_from_flange, seeds),
+                }
+            }
+        };
         for solution in &answer.solutions {
             let joints = match within_limits(scene, solution) {
                 Ok(joints) => joints,
@@ -56,6 +84,9 @@ pub(crate) fn candidates(
                 colliding.push(joints);
             }
         }
+        if last_joint_rolls.is_some() && level.is_none() {
+            level = Some(answer.clone());
+        }
         if let Some(failure) = answer.failure {
             best_failure = Some(nearer(best_failure, failure));
         }
@@ -63,11 +94,32 @@ pub(crate) fn candidates(
     if !free.is_empty() {
         return Ok(free);
     }
-    let contacts = colliding.iter().filter_map(|q| scene.deepest_contact(q, placement));
-    if let Some(contact) = contacts.min_by(|a, b| a.depth_m.total_cmp(&b.depth_m)) {
+    if placement.work.is_over() {
+        return Err(SkipReason::WorkLimit);
+    }
+    let mut least: Option<Contact> = None;
+    for q in &colliding {
+        if least.is_some() && placement.work.is_over() {
+            break;
+        }
+        let less_than_m = least.as_ref().map_or(f64::INFINITY, |contact| contact.depth_m);
+        least = scene.deepest_contact(q, placement, less_than_m).or(least);
+    }
+    if let Some(contact) = least {
         return Err(SkipReason::Collision(contact));
     }
     Err(best_limit.map_or_else(|| reason_of(best_failure), |(reason, _)| reason))
+}
+
+/// Solutions of a pose as those of the pose rolled, where the last joint rolls it.
+fn with_last_turned(level: &InverseSolutions, by_rad: f64) -> InverseSolutions {
+    let mut turned = level.clone();
+    for state in &mut turned.solutions {
+        if let Some(last) = state.last_mut() {
+            *last += by_rad;
+        }
+    }
+    turned
 }
 
 /// A solution turned into the model's limits, which a request may have

@@ -13,6 +13,7 @@ use std::f64::consts::{PI, TAU};
 use super::candidates::{Candidate, turns};
 use super::joints::Joints;
 use super::metric::Metric;
+use super::work::{Work, cost};
 
 /// How many labels are followed.
 #[derive(Clone, Copy, Debug)]
@@ -84,6 +85,7 @@ impl Chooser {
         layers: &[Layer],
         changed_from: usize,
         count: usize,
+        work: &mut Work,
     ) -> Result<Vec<Label>, usize> {
         self.labels.truncate(changed_from.min(count));
         for index in self.labels.len()..count {
@@ -92,8 +94,12 @@ impl Chooser {
             let may_drop = layers.get(index + 1).is_none_or(|l| l.priced.is_empty());
             let labels = match self.labels.last() {
                 None => self.first_labels(layer),
-                Some(previous) => self.next_labels(previous, layer),
+                Some(previous) => {
+                    work.spend(cost::LEG * (previous.len() * layer.candidates.len()) as u64);
+                    self.next_labels(previous, layer)
+                }
             };
+            work.spend(cost::LEG * (labels.len() * JUDGES) as u64);
             let labels = self.keep_useful(labels, may_drop, layer.candidates.len());
             if labels.is_empty() {
                 return Err(index);
@@ -131,14 +137,21 @@ impl Chooser {
         for (candidate, state) in layer.candidates.iter().enumerate() {
             // The labels of this candidate, one for each combination of turns met.
             let first = labels.len();
+            let turns = self.turns_of(&state.joints);
             for (parent, before) in previous.iter().enumerate() {
-                let joints = self.nearest_turns(&state.joints, &before.joints);
+                let joints = turns.nearest(&before.joints);
+                let known = labels.iter().skip(first).position(|known| known.joints == joints);
+                let known = known.and_then(|index| labels.get_mut(first + index));
+                // No move costs less than nothing.
+                if known.as_ref().is_some_and(|known| known.cost <= before.cost) {
+                    continue;
+                }
                 let cost = before.cost + move_cost(&self.metric, layer, &before.joints, &joints);
                 if !cost.is_finite() {
                     continue;
                 }
                 let label = Label { joints, candidate, cost, parent };
-                match labels.iter_mut().skip(first).find(|known| known.joints == joints) {
+                match known {
                     Some(known) if known.cost <= cost => {}
                     Some(known) => *known = label,
                     None => labels.push(label),
@@ -171,31 +184,52 @@ impl Chooser {
         kept
     }
 
-    /// `joints` turned as near to `target` as the limits allow.
-    fn nearest_turns(&self, joints: &Joints, target: &Joints) -> Joints {
-        let far = joints.iter().zip(target).fold(0.0f64, |far, (q, t)| {
-            let d = (t - q).abs();
-            if d > far { d } else { far }
-        });
-        if far <= PI {
-            return *joints;
+    /// The whole turns of `joints` within the limits.
+    fn turns_of(&self, joints: &Joints) -> Turns {
+        let (lower, upper) = (self.lower, self.upper);
+        Turns {
+            joints: *joints,
+            least: std::array::from_fn(|j| ((lower[j] - joints[j]) / TAU - 1e-9).ceil()),
+            most: std::array::from_fn(|j| ((upper[j] - joints[j]) / TAU + 1e-9).floor()),
+            lower,
+            upper,
         }
-        std::array::from_fn(|j| {
-            let (q, low, high) = (joints[j], self.lower[j], self.upper[j]);
-            if (target[j] - q).abs() <= PI {
-                return q;
-            }
-            let turns = ((target[j] - q) / TAU).round();
-            let least = ((low - q) / TAU - 1e-9).ceil();
-            let most = ((high - q) / TAU + 1e-9).floor();
-            (q + turns.max(least).min(most) * TAU).max(low).min(high)
-        })
     }
 
     fn distance_from_middle(&self, joints: &Joints) -> f64 {
         (0..joints.len()).map(|j| (joints[j] - 0.5 * (self.lower[j] + self.upper[j])).abs()).sum()
     }
 }
+
+/// A state and the whole turns that its joints may be moved by.
+struct Turns {
+    joints: Joints,
+    least: Joints,
+    most: Joints,
+    lower: Joints,
+    upper: Joints,
+}
+
+impl Turns {
+    /// The state turned as near to `target` as the limits allow.
+    #[inline(always)]
+    fn nearest(&self, target: &Joints) -> Joints {
+        std::array::from_fn(|j| {
+            let q = self.joints[j];
+            if (target[j] - q).abs() <= PI {
+                return q;
+            }
+            // Adding and taking away this number rounds; `round` would be a call, millions a plan.
+            let turns = ((target[j] - q) / TAU + ROUNDS) - ROUNDS;
+            let turns = if turns > self.least[j] { turns } else { self.least[j] };
+            let turns = if turns < self.most[j] { turns } else { self.most[j] };
+            (q + turns * TAU).max(self.lower[j]).min(self.upper[j])
+        })
+    }
+}
+
+/// 1.5 * 2^52: a number of less than 2^51 added to it loses what is behind the point.
+const ROUNDS: f64 = 6_755_399_441_055_744.0;
 
 fn move_cost(metric: &Metric, layer: &Layer, from: &Joints, to: &Joints) -> f64 {
     if layer.priced.is_empty() {

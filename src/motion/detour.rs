@@ -10,6 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use super::joints::{Joints, difference, lerp, norm};
 use super::scene::Scene;
 use super::sweep::Sweeper;
+use super::work::cost;
 
 /// Longest edge of a tree, radians in joint space.
 const STEP_RAD: f64 = 0.5;
@@ -28,6 +29,19 @@ pub(crate) struct Search {
     pub iterations: usize,
 }
 
+/// Checks of straight moves.
+struct Moves<'a, 's> {
+    scene: &'a Scene<'s>,
+    sweeper: &'a mut Sweeper,
+    relief_m: f64,
+}
+
+impl Moves<'_, '_> {
+    fn is_free(&mut self, from: &Joints, to: &Joints) -> bool {
+        self.sweeper.is_free(self.scene, from, to, &[0.0; 8], self.relief_m)
+    }
+}
+
 struct Tree {
     nodes: Vec<Joints>,
     parents: Vec<usize>,
@@ -44,10 +58,13 @@ pub(crate) fn detour(
     search: &Search,
 ) -> (Option<Vec<Joints>>, usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(search.seed);
-    let mut is_free = |a: &Joints, b: &Joints| sweeper.is_free(scene, a, b, &[0.0; 8], relief_m);
+    let mut moves = Moves { scene, sweeper, relief_m };
     let limits = scene.limits();
     let mut trees = [Tree::rooted(from), Tree::rooted(to)];
     for iteration in 0..search.iterations {
+        if moves.sweeper.work().is_over() {
+            return (None, iteration);
+        }
         let wide = iteration % WIDE_EVERY == WIDE_EVERY - 1;
         let target = sample(&mut rng, from, to, &limits, wide);
         let [growing, other] = if iteration % 2 == 0 {
@@ -57,9 +74,9 @@ pub(crate) fn detour(
             let [a, b] = &mut trees;
             [b, a]
         };
-        let Some(tip) = growing.extend(&target, &mut is_free) else { continue };
+        let Some(tip) = growing.extend(&target, &mut moves) else { continue };
         let goal = growing.nodes[tip];
-        let Some(met) = other.connect(&goal, &mut is_free) else { continue };
+        let Some(met) = other.connect(&goal, &mut moves) else { continue };
         let (first, second) = if iteration % 2 == 0 {
             (growing.path_to(tip), other.path_to(met))
         } else {
@@ -67,7 +84,7 @@ pub(crate) fn detour(
         };
         let mut path = first;
         path.extend(second.into_iter().rev().skip(1));
-        return (Some(shortened(path, &mut rng, &mut is_free)), iteration + 1);
+        return (Some(shortened(path, &mut rng, &mut moves)), iteration + 1);
     }
     (None, search.iterations)
 }
@@ -84,11 +101,8 @@ impl Tree {
     }
 
     /// One step towards `target`; the new node.
-    fn extend(
-        &mut self,
-        target: &Joints,
-        is_free: &mut impl FnMut(&Joints, &Joints) -> bool,
-    ) -> Option<usize> {
+    fn extend(&mut self, target: &Joints, moves: &mut Moves) -> Option<usize> {
+        moves.sweeper.work().spend(cost::LEG * self.nodes.len() as u64);
         let parent = self.nearest(target);
         let from = self.nodes[parent];
         let length = norm(&difference(&from, target));
@@ -96,7 +110,7 @@ impl Tree {
             return Some(parent);
         }
         let to = if length <= STEP_RAD { *target } else { lerp(&from, target, STEP_RAD / length) };
-        is_free(&from, &to).then(|| {
+        moves.is_free(&from, &to).then(|| {
             self.nodes.push(to);
             self.parents.push(parent);
             self.nodes.len() - 1
@@ -104,14 +118,10 @@ impl Tree {
     }
 
     /// Steps towards `target` until it is reached (its node) or something is in the way.
-    fn connect(
-        &mut self,
-        target: &Joints,
-        is_free: &mut impl FnMut(&Joints, &Joints) -> bool,
-    ) -> Option<usize> {
+    fn connect(&mut self, target: &Joints, moves: &mut Moves) -> Option<usize> {
         loop {
             let before = self.nodes.len();
-            let tip = self.extend(target, is_free)?;
+            let tip = self.extend(target, moves)?;
             if self.nodes[tip] == *target || self.nodes.len() == before {
                 return Some(tip);
             }
@@ -144,12 +154,8 @@ fn sample(rng: &mut ChaCha8Rng, from: &Joints, to: &Joints, limits: &(Joints, Jo
 }
 
 /// The path with corners cut wherever a straight move is free.
-fn shortened(
-    mut path: Vec<Joints>,
-    rng: &mut ChaCha8Rng,
-    is_free: &mut impl FnMut(&Joints, &Joints) -> bool,
-) -> Vec<Joints> {
-    drop_needless(&mut path, is_free);
+fn shortened(mut path: Vec<Joints>, rng: &mut ChaCha8Rng, moves: &mut Moves) -> Vec<Joints> {
+    drop_needless(&mut path, moves);
     for _ in 0..SHORTCUTS {
         if path.len() <= 2 {
             break;
@@ -163,19 +169,19 @@ fn shortened(
         }
         let a = lerp(&path[i], &path[i + 1], u - i as f64);
         let b = lerp(&path[k], &path[k + 1], v - k as f64);
-        if is_free(&a, &b) {
+        if moves.is_free(&a, &b) {
             path.splice(i + 1..=k, [a, b]);
         }
     }
-    drop_needless(&mut path, is_free);
+    drop_needless(&mut path, moves);
     path
 }
 
 /// Leaves out waypoints whose neighbours a free straight move joins.
-fn drop_needless(path: &mut Vec<Joints>, is_free: &mut impl FnMut(&Joints, &Joints) -> bool) {
+fn drop_needless(path: &mut Vec<Joints>, moves: &mut Moves) {
     let mut i = 1;
     while i + 1 < path.len() {
-        if is_free(&path[i - 1], &path[i + 1]) {
+        if moves.is_free(&path[i - 1], &path[i + 1]) {
             path.remove(i);
         } else {
             i += 1;

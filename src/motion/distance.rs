@@ -106,6 +106,17 @@ pub(crate) fn shape_bottom(frame_from_link: &Pose, shape: &LinkShape) -> f64 {
 
 /// Signed distance of two placed shapes, metres; negative is the penetration depth.
 pub(crate) fn shape_shape(frame_from_a: &Pose, a: &LinkShape, frame_from_b: &Pose, b: &LinkShape) -> f64 {
+    shape_shape_up_to(frame_from_a, a, frame_from_b, b, f64::INFINITY)
+}
+
+/// [`shape_shape`], or any lower bound of it that is at least `enough_m`.
+pub(crate) fn shape_shape_up_to(
+    frame_from_a: &Pose,
+    a: &LinkShape,
+    frame_from_b: &Pose,
+    b: &LinkShape,
+    enough_m: f64,
+) -> f64 {
     if let (
         LinkShape::Capsule { from_in_link: a0, to_in_link: a1, radius_m: ra },
         LinkShape::Capsule { from_in_link: b0, to_in_link: b1, radius_m: rb },
@@ -117,11 +128,11 @@ pub(crate) fn shape_shape(frame_from_a: &Pose, a: &LinkShape, frame_from_b: &Pos
     match (a, b) {
         (LinkShape::Capsule { from_in_link, to_in_link, radius_m }, solid) => {
             let ends = [frame_from_a * from_in_link, frame_from_a * to_in_link];
-            return segment_solid(&ends, frame_from_b, solid) - radius_m;
+            return segment_solid(&ends, frame_from_b, solid, enough_m + radius_m) - radius_m;
         }
         (solid, LinkShape::Capsule { from_in_link, to_in_link, radius_m }) => {
             let ends = [frame_from_b * from_in_link, frame_from_b * to_in_link];
-            return segment_solid(&ends, frame_from_a, solid) - radius_m;
+            return segment_solid(&ends, frame_from_a, solid, enough_m + radius_m) - radius_m;
         }
         _ => {}
     }
@@ -147,8 +158,9 @@ const SECTION: f64 = 0.618_033_988_749_894_9;
 /// by at most a micrometre.
 ///
 /// The signed distance to a convex solid is a convex function, along a segment too, and changes by
-/// no more than the way along it: a golden section search closes in on its least value.
-fn segment_solid(ends: &[Point; 2], frame_from_link: &Pose, solid: &LinkShape) -> f64 {
+/// no more than the way along it: a golden section search closes in on its least value. It ends
+/// early where that is seen to be at least `enough_m`, with a bound that says so.
+fn segment_solid(ends: &[Point; 2], frame_from_link: &Pose, solid: &LinkShape, enough_m: f64) -> f64 {
     let [a, b] = ends.map(|end| frame_from_link.inverse_transform_point(&end));
     let identity = Pose::identity();
     let (pose, half_extents, cylinder) = match solid {
@@ -173,6 +185,9 @@ fn segment_solid(ends: &[Point; 2], frame_from_link: &Pose, solid: &LinkShape) -
     let (mut at_left, mut at_right) = (at(left), at(right));
     let mut least = at_left.min(at_right);
     while (high - low) * length > SEARCH_M {
+        if least - (high - low) * length >= enough_m {
+            break;
+        }
         if at_left <= at_right {
             (high, right, at_right) = (right, left, at_left);
             left = high - SECTION * (high - low);
@@ -250,6 +265,10 @@ mod tests {
                 LinkShape::Cylinder { link_from_cylinder: pose, half_length_m: x, radius_m: y },
             ] {
                 let found = shape_shape(&Pose::identity(), &capsule, &Pose::identity(), &solid) + 0.02;
+                let enough_m = 0.1;
+                let at_least = shape_shape_up_to(&Pose::identity(), &capsule, &Pose::identity(), &solid, enough_m) + 0.02;
+                prop_assert!(at_least <= found + 1e-5);
+                prop_assert!(at_least - 0.02 >= enough_m || (at_least - found).abs() < 1e-12);
                 let sampled = nearest_sample(&a, &b, |p| shape_point(&Pose::identity(), &solid, p));
                 if sampled > 1e-3 {
                     prop_assert!(found <= sampled + 1e-5 && found >= sampled - 0.01, "{found} {sampled}");

@@ -70,4 +70,7 @@ pub enum MotionError {
         /// The least period that would do, seconds; `None` where none does.
         least_period_s: Option<f64>,
     },
+    /// Nobody waits for the answer any more: see [`Stop`](super::Stop).
+    #[error("stopped before the end")]
+    Stopped,
 }

@@ -7,6 +7,7 @@
 //! by `dq` moves the point by at most `sum_j lever_j |dq_j|`, seen from any
 //! link below the moved joints (move them one after another, the last first).
 
+use super::broad::Ball;
 use super::joints::{Joints, MAX_JOINTS, joints_from};
 use super::shape::Core;
 use crate::geometry::{Point, Pose, Vector};
@@ -50,10 +51,24 @@ impl Levers {
 
     /// For each joint the lever of a shape on link `link`, metres; 0 for joints above it.
     pub fn of_shape(&self, link: usize, core_in_link: &Core) -> Joints {
+        self.levers_and_reach(link, core_in_link).0
+    }
+
+    /// A ball in the base frame that a shape on link `link` never leaves.
+    pub fn reach_of_shape(&self, link: usize, core_in_link: &Core) -> Ball {
+        self.levers_and_reach(link, core_in_link).1
+    }
+
+    fn levers_and_reach(&self, link: usize, core_in_link: &Core) -> (Joints, Ball) {
         let mut levers = [0.0; MAX_JOINTS];
-        let Some(base_from_link) = self.zero_poses.get(link) else { return levers };
+        let still = Ball::around(core_in_link);
+        let Some(base_from_link) = self.zero_poses.get(link) else {
+            return (levers, Ball { center: Point::origin(), radius_m: f64::INFINITY });
+        };
         let ends = [base_from_link * core_in_link.a, base_from_link * core_in_link.b];
-        let Some(last) = link.checked_sub(1) else { return levers };
+        let Some(last) = link.checked_sub(1) else {
+            return (levers, Ball { center: base_from_link * still.center, ..still });
+        };
         // From the last joint that moves the shape down to the base.
         let mut reference = Point::origin();
         let mut carried = 0.0;
@@ -72,7 +87,8 @@ impl Levers {
                 reference = next;
             }
         }
-        levers
+        // The first axis does not move: no joint carries the shape farther from this point of it.
+        (levers, Ball { center: reference, radius_m: carried })
     }
 }
 
@@ -99,8 +115,10 @@ mod tests {
             let moved: Vec<f64> = q.iter().zip(&d).map(|(a, b)| a + b).collect();
             let (before, after) = (arm.link_poses(&q)[link], arm.link_poses(&moved)[link]);
             let bound: f64 = (0..6).map(|j| levers[j] * d[j].abs()).sum();
+            let reach = Levers::new(arm.as_ref()).reach_of_shape(link, &tip);
             for p in [tip.a, tip.b] {
                 prop_assert!((after * p - before * p).norm() <= bound + 1e-12);
+                prop_assert!((before * p - reach.center).norm() <= reach.radius_m + 1e-12);
             }
         }
     }

@@ -6,6 +6,7 @@
 //! to the arm's base; metres, radians, seconds.
 
 mod along_path;
+mod broad;
 mod candidates;
 mod cell;
 mod check;
@@ -27,6 +28,7 @@ mod point_count;
 mod reach;
 mod request;
 mod resolve;
+mod roll_axis;
 mod rounded;
 mod s_curve;
 mod scene;
@@ -34,13 +36,15 @@ mod shape;
 mod sweep;
 mod trajectory;
 mod trapezoid;
+mod work;
 
 #[cfg(test)]
 mod tests;
 
 pub use cell::{Cell, KeepOut, LARGEST_LENGTH_M, d435_body, default_camera_body};
 pub use check::{
-    Claim, ClaimedView, Looked, Nearest, UNDERCUT_BOUND_M, Verdict, Violation, check, check_claim,
+    Claim, ClaimedView, Looked, MOST_OF_A_KIND, Nearest, UNDERCUT_BOUND_M, Verdict, Violation, check,
+    check_claim,
 };
 pub use contact::{Contact, ContactKind};
 pub use error::MotionError;
@@ -50,5 +54,6 @@ pub use places::{farthest_reach_m, object_stands_clear};
 pub use plan::{Compared, Leg, LegStart, MotionPlan, PlannedView, SkipReason, TrajectoryPoint, ViewOutcome};
 pub use planner::plan_motion;
 pub use point_count::MOST_POINTS;
-pub use reach::{Probe, Reach};
+pub use reach::{KnownState, Probe, Reach};
 pub use request::{MotionRequest, Objective, Order, OrderViews, Roll, Timing};
+pub use work::{Allowance, Stop, inverse_work};

@@ -41,6 +41,9 @@ pub enum SkipReason {
         /// Pairs of joint states between which a way was searched.
         attempts: usize,
     },
+    /// The cell is so hard that the planner's work ended before this view was settled (`work_limit`).
+    #[error("the planner's work ended before the view was settled: the cell is too hard for it")]
+    WorkLimit,
 }
 
 /// Where a leg begins.
@@ -69,6 +72,7 @@ impl SkipReason {
             SkipReason::NoIk { .. } => "no_ik",
             SkipReason::JointLimit { .. } => "joint_limit",
             SkipReason::NoPath { .. } => "no_path",
+            SkipReason::WorkLimit => "work_limit",
             SkipReason::Collision(contact) => match contact.kind {
                 ContactKind::SelfCollision => "self_collision",
                 ContactKind::Table => "table_collision",
@@ -149,6 +153,8 @@ pub struct MotionPlan {
     pub compared: Option<Compared>,
     /// Start values moved onto their limits.
     pub clamped_start: Vec<ClampedJoint>,
+    /// Work that the plan took, in the units of [`Allowance`](super::Allowance).
+    pub work: u64,
 }
 
 /// Beside a motion made for time: the one made for distance, and what no motion can beat.

@@ -4,7 +4,7 @@ use super::candidates::{Candidate, candidates, rolled};
 use super::choice::Layer;
 use super::contact::Contact;
 use super::error::MotionError;
-use super::fastest::fastest_order;
+use super::fastest::{Effort, fastest_order};
 use super::joints::{Joints, difference, joints_from};
 use super::metric::Metric;
 use super::plan::{Compared, Leg, LegStart, MotionPlan, PlannedView, SkipReason, ViewOutcome};
@@ -14,6 +14,15 @@ use super::scene::{Placement, Scene};
 use super::shape::pose_is_finite;
 use super::sweep::{RESOLUTION_M, Sweeper};
 use super::trajectory::{Timed, timed};
+use super::work::Work;
+
+/// Shares of the work after which stages end, if they come so far: the search for states, the
+/// motion for distance beside one for time, and the search for a fast order.
+const CANDIDATES: f64 = 0.5;
+const BY_DISTANCE: f64 = 0.7;
+const FASTEST: f64 = 0.8;
+/// What is kept for the rounding of corners.
+const ROUNDING: f64 = 0.05;
 
 /// Plans a motion of the arm through all views it can reach.
 ///
@@ -21,21 +30,22 @@ use super::trajectory::{Timed, timed};
 /// Views that cannot be reached are left out with a reason; that none can be
 /// reached is a valid answer with an empty trajectory. Margins hold at every
 /// moment of the motion up to half a millimetre, except on the way out of a
-/// start state that already undercuts them.
+/// start state that already undercuts them. Where the work that is allowed does not suffice, the
+/// views that were not settled are left out.
 ///
 /// # Errors
 /// Numbers out of range, a start state beyond its limits or in collision, an
-/// ordering function that returns no permutation, a trajectory too long to store.
+/// ordering function that returns no permutation, a trajectory too long to store; being stopped.
 pub fn plan_motion(request: &MotionRequest) -> Result<MotionPlan, MotionError> {
     check_request(request)?;
     let mut scene = Scene::new(request.cell);
-    let mut placement = Placement::default();
+    let mut sweeper = Sweeper::new(Work::new(&request.allowance()));
     let robot = &request.cell.robot;
     let (start, clamped_start) = match request.start {
         Some(given) => {
             let (state, clamped) = robot.clamp_start(given)?;
-            let start = start_state(&scene, &state, &mut placement)?;
-            scene.excuse(&start.joints, &mut placement);
+            let start = start_state(&scene, &state, &mut sweeper.placement)?;
+            scene.excuse(&start.joints, &mut sweeper.placement);
             (Some(start), clamped)
         }
         None => (None, Vec::new()),
@@ -44,8 +54,10 @@ pub fn plan_motion(request: &MotionRequest) -> Result<MotionPlan, MotionError> {
     let rolls_rad = request.roll.rolls_rad();
     let mut skipped: Vec<Option<SkipReason>> = vec![None; request.views.len()];
     let mut reachable: Vec<(usize, Vec<Candidate>)> = Vec::new();
+    sweeper.work().bound(request.share_of_work(CANDIDATES));
     for (view, pose) in request.views.iter().enumerate() {
-        match candidates(&scene, pose, &rolls_rad, &seeds, &mut placement) {
+        let known = request.known.and_then(|known| known.get(view)).and_then(Option::as_ref);
+        match candidates(&scene, pose, &rolls_rad, &seeds, known, &mut sweeper.placement) {
             Ok(found) => reachable.push((view, found)),
             Err(reason) => {
                 if let Some(slot) = skipped.get_mut(view) {
@@ -56,18 +68,29 @@ pub fn plan_motion(request: &MotionRequest) -> Result<MotionPlan, MotionError> {
     }
     let layers = ordered(request, start.as_ref(), reachable)?;
     let joints = &robot.joints;
-    let timed_motion = |metric: Metric, layers: Vec<Layer>| {
-        let resolved = resolve(&scene, &metric, layers, start, request.seed);
-        Motion::timed(&scene, resolved, start.as_ref(), &request.timing)
+    // Each stage may use its part of the work, and what those before it left.
+    let timed_motion = |metric: Metric, layers: Vec<Layer>, until: f64, sweeper: &mut Sweeper| {
+        sweeper.work().bound(request.share_of_work(until));
+        let resolved = resolve(&scene, sweeper, &metric, layers, start, request.seed);
+        sweeper.work().bound(request.share_of_work(until + ROUNDING));
+        Motion::timed(&scene, sweeper, resolved, start.as_ref(), &request.timing)
     };
+    let all = 1.0 - ROUNDING;
     let (Motion { stops, dropped, timed }, compared) = match (request.objective, request.order) {
-        (Objective::Distance, _) => (timed_motion(Metric::travel(joints), layers)?, None),
-        (Objective::Time, Order::AsGiven) => (timed_motion(Metric::time(joints), layers)?, None),
+        (Objective::Distance, _) => (timed_motion(Metric::travel(joints), layers, all, &mut sweeper)?, None),
+        (Objective::Time, Order::AsGiven) => (
+            timed_motion(Metric::time(joints, request.timing.jerk_limited), layers, all, &mut sweeper)?,
+            None,
+        ),
         (Objective::Time, Order::By(_)) => {
-            let by_distance = timed_motion(Metric::travel(joints), layers.clone())?;
-            let fastest = fastest_order(&scene, &layers, start.as_ref(), request.seed);
+            let by_distance =
+                timed_motion(Metric::travel(joints), layers.clone(), BY_DISTANCE, &mut sweeper)?;
+            sweeper.work().bound(request.share_of_work(FASTEST));
+            let effort = Effort::new(request.timing.jerk_limited, request.seed);
+            let fastest = fastest_order(&scene, &mut sweeper, &layers, start.as_ref(), effort);
             let layers = fastest.order.iter().filter_map(|i| layers.get(*i).cloned()).collect();
-            let by_time = timed_motion(Metric::time(joints), layers)?;
+            let by_time =
+                timed_motion(Metric::time(joints, request.timing.jerk_limited), layers, all, &mut sweeper)?;
             let mut compared = by_distance.compared();
             let better = if by_time.rank() < by_distance.rank() { by_time } else { by_distance };
             compared.least_duration_s =
@@ -77,6 +100,9 @@ pub fn plan_motion(request: &MotionRequest) -> Result<MotionPlan, MotionError> {
             (better, Some(compared))
         }
     };
+    if sweeper.work().is_stopped() {
+        return Err(MotionError::Stopped);
+    }
     for (view, reason) in dropped {
         if let Some(slot) = skipped.get_mut(view) {
             *slot = Some(reason);
@@ -116,6 +142,7 @@ pub fn plan_motion(request: &MotionRequest) -> Result<MotionPlan, MotionError> {
         joint_travel_rad,
         compared,
         clamped_start,
+        work: sweeper.work().spent(),
     })
 }
 
@@ -129,14 +156,14 @@ struct Motion {
 impl Motion {
     fn timed(
         scene: &Scene,
+        sweeper: &mut Sweeper,
         resolved: Resolved,
         start: Option<&StartState>,
         timing: &Timing,
     ) -> Result<Self, MotionError> {
         let relief_m = start.map_or(0.0, |s| s.relief_m);
-        let mut sweeper = Sweeper::default();
         let Resolved { stops, dropped, .. } = resolved;
-        let timed = timed(scene, &mut sweeper, start.map(|s| &s.joints), &stops, relief_m, timing)?;
+        let timed = timed(scene, sweeper, start.map(|s| &s.joints), &stops, relief_m, timing)?;
         Ok(Self { stops, dropped, timed })
     }
 
@@ -186,7 +213,7 @@ fn start_state(scene: &Scene, state: &[f64], placement: &mut Placement) -> Resul
     if let Some(Contact { first, second, distance_m, .. }) = scene.deepest_overlap(&joints, placement) {
         return Err(MotionError::StartCollides { first, second, depth_m: -distance_m });
     }
-    let depth_m = scene.deepest_contact(&joints, placement).map(|contact| contact.depth_m);
+    let depth_m = scene.deepest_contact(&joints, placement, f64::INFINITY).map(|contact| contact.depth_m);
     Ok(StartState { joints, relief_m: depth_m.map_or(0.0, |depth_m| depth_m + RESOLUTION_M) })
 }
 

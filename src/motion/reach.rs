@@ -1,7 +1,5 @@
 //! Which camera poses an arm can take in its cell, one by one: no way between them is planned.
 
-use std::f64::consts::TAU;
-
 use super::candidates::{candidates, rolled, within_limits};
 use super::cell::Cell;
 use super::error::MotionError;
@@ -9,16 +7,23 @@ use super::plan::SkipReason;
 use super::request::Roll;
 use super::scene::{Placement, Scene};
 use super::shape::pose_is_finite;
-use crate::geometry::{Pose, Vector};
+use super::work::{Allowance, Work, cost};
+use crate::geometry::Pose;
 
 /// A cell prepared to be asked for poses. Shared between threads; each asks through its own [`Probe`].
 pub struct Reach<'a> {
     scene: Scene<'a>,
     rolls_rad: Vec<f64>,
     seeds: Vec<Vec<f64>>,
-    /// Rolling the camera only turns the last joint, all the way round: where no joint state takes a
-    /// pose, none takes it rolled.
-    last_joint_rolls: bool,
+}
+
+/// A joint state that takes a pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KnownState {
+    /// Joint angles, radians.
+    pub joints_rad: Vec<f64>,
+    /// Turn of the camera about its optical axis against the pose, radians.
+    pub roll_rad: f64,
 }
 
 /// Asks a [`Reach`] for one pose after the other.
@@ -39,8 +44,7 @@ impl<'a> Reach<'a> {
             Some(given) => vec![cell.robot.clamp_start(given)?.0],
             None => Vec::new(),
         };
-        let last_joint_rolls = last_joint_rolls(cell);
-        Ok(Self { scene: Scene::new(cell), rolls_rad: roll.rolls_rad(), seeds, last_joint_rolls })
+        Ok(Self { scene: Scene::new(cell), rolls_rad: roll.rolls_rad(), seeds })
     }
 
     /// Whether a question takes microseconds, not milliseconds.
@@ -48,34 +52,95 @@ impl<'a> Reach<'a> {
         self.scene.cell.robot.kinematics.is_closed_form()
     }
 
-    /// Someone to ask.
-    pub fn probe(&self) -> Probe<'_> {
-        Probe { reach: self, placement: Placement::default() }
+    /// The same questions in `cell`, which differs from this one in its object alone.
+    ///
+    /// # Errors
+    /// Numbers of the cell that are out of range.
+    pub fn with_object_of<'b>(&self, cell: &'b Cell) -> Result<Reach<'b>, MotionError> {
+        cell.validate()?;
+        Ok(Reach {
+            scene: self.scene.with_object_of(cell),
+            rolls_rad: self.rolls_rad.clone(),
+            seeds: self.seeds.clone(),
+        })
+    }
+
+    /// Someone to ask, for as much work as `allowance` has.
+    pub fn probe(&self, allowance: &Allowance) -> Probe<'_> {
+        Probe { reach: self, placement: Placement::new(Work::new(allowance)) }
+    }
+
+    /// The most work that a question takes where nothing is near, about: all rolls, eight states
+    /// each, no distance but bounds.
+    pub fn usual_work(&self) -> u64 {
+        let state = cost::PLACE * 12 + cost::BOUND * self.scene.pairs().len() as u64;
+        self.rolls_rad.len() as u64 * (self.scene.inverse_cost + 8 * state)
     }
 }
 
 impl Probe<'_> {
+    /// Work done so far.
+    pub fn spent(&self) -> u64 {
+        self.placement.work.spent()
+    }
+
+    /// Whether there is none left: then every answer is no.
+    pub fn is_over(&self) -> bool {
+        self.placement.work.is_over()
+    }
+
+    /// A new question, for as much work as `allowance` has.
+    pub fn begin(&mut self, allowance: &Allowance) {
+        self.placement.work = Work::new(allowance);
+    }
+
     /// Whether a collision-free joint state within the limits takes the pose `base_from_camera`
     /// (OpenCV axes) at one of the rolls. Stops at the first: microseconds for an arm with closed
     /// kinematics where there is one, all rolls and branches where there is none.
     pub fn reaches(&mut self, base_from_camera: &Pose) -> bool {
-        let Reach { scene, rolls_rad, seeds, last_joint_rolls } = self.reach;
+        self.state(base_from_camera).is_some()
+    }
+
+    /// The state that [`Probe::reaches`] finds first.
+    pub fn state(&mut self, base_from_camera: &Pose) -> Option<KnownState> {
+        let Reach { scene, rolls_rad, seeds } = self.reach;
         if !pose_is_finite(base_from_camera) {
-            return false;
+            return None;
         }
         let camera_from_flange = scene.cell.flange_from_camera.inverse();
-        for roll_rad in rolls_rad {
-            let base_from_flange = rolled(base_from_camera, *roll_rad) * camera_from_flange;
+        for &roll_rad in rolls_rad {
+            if self.placement.work.is_over() {
+                return None;
+            }
+            self.placement.work.spend(scene.inverse_cost);
+            let base_from_flange = rolled(base_from_camera, roll_rad) * camera_from_flange;
             let answer = scene.cell.robot.kinematics.inverse(&base_from_flange, seeds);
             let mut states = answer.solutions.iter().filter_map(|state| within_limits(scene, state).ok());
-            if states.any(|joints| scene.is_free(&joints, &mut self.placement)) {
-                return true;
+            if let Some(joints) = states.find(|joints| scene.is_free(joints, &mut self.placement)) {
+                return Some(KnownState { joints_rad: joints[..scene.dof].to_vec(), roll_rad });
             }
-            if answer.solutions.is_empty() && *last_joint_rolls {
-                return false;
+            // Where no joint state takes the pose, none takes it rolled.
+            if answer.solutions.is_empty() && scene.last_joint_rolls.is_some() {
+                return None;
             }
         }
-        false
+        None
+    }
+
+    /// A collision-free state for the pose next to `known`, that of a pose nearby, at the same roll.
+    /// None may be found from there although there are some.
+    pub fn state_from(&mut self, base_from_camera: &Pose, known: &KnownState) -> Option<KnownState> {
+        let Reach { scene, .. } = self.reach;
+        if self.placement.work.is_over() || !pose_is_finite(base_from_camera) {
+            return None;
+        }
+        self.placement.work.spend(cost::DESCENT);
+        let camera_from_flange = scene.cell.flange_from_camera.inverse();
+        let base_from_flange = rolled(base_from_camera, known.roll_rad) * camera_from_flange;
+        let state = scene.cell.robot.kinematics.inverse_from(&base_from_flange, &known.joints_rad)?;
+        let joints = within_limits(scene, &state).ok()?;
+        let is_free = scene.is_free(&joints, &mut self.placement);
+        is_free.then(|| KnownState { joints_rad: joints[..scene.dof].to_vec(), roll_rad: known.roll_rad })
     }
 
     /// Why the pose cannot be taken, exactly as a plan would say; `None` where it can.
@@ -83,23 +148,7 @@ impl Probe<'_> {
         if self.reaches(base_from_camera) {
             return None;
         }
-        let Reach { scene, rolls_rad, seeds, .. } = self.reach;
-        candidates(scene, base_from_camera, rolls_rad, seeds, &mut self.placement).err()
+        let Reach { scene, rolls_rad, seeds } = self.reach;
+        candidates(scene, base_from_camera, rolls_rad, seeds, None, &mut self.placement).err()
     }
-}
-
-/// Whether the optical axis is the last joint's axis, and that joint turns all the way.
-fn last_joint_rolls(cell: &Cell) -> bool {
-    let Some(joint) = cell.robot.joints.last() else { return false };
-    let camera = |last_rad: f64| {
-        let mut state = vec![0.3; cell.robot.joints.len()];
-        if let Some(last) = state.last_mut() {
-            *last = last_rad;
-        }
-        cell.robot.kinematics.forward(&state) * cell.flange_from_camera
-    };
-    let (first, turned) = (camera(0.0), camera(1.0));
-    let stays = (first.translation.vector - turned.translation.vector).norm() < 1e-9;
-    let axes = [first, turned].map(|pose| pose.rotation * Vector::z());
-    stays && (axes[0] - axes[1]).norm() < 1e-9 && joint.upper_rad - joint.lower_rad >= TAU
 }

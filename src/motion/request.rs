@@ -1,6 +1,8 @@
 //! What a motion planner is asked.
 
 use super::cell::Cell;
+use super::reach::KnownState;
+use super::work::Allowance;
 use crate::geometry::Pose;
 use crate::robot::Joint;
 
@@ -131,6 +133,10 @@ pub struct MotionRequest<'a> {
     pub timing: Timing,
     /// Seed of the detour search. The same request and seed give the same plan.
     pub seed: u64,
+    /// For each view a state that takes it, where one is known: searches begin there too.
+    pub known: Option<&'a [Option<KnownState>]>,
+    /// How much work the plan may take; [`Allowance::PLAN`] without it.
+    pub allowance: Option<&'a Allowance>,
 }
 
 impl<'a> MotionRequest<'a> {
@@ -145,6 +151,18 @@ impl<'a> MotionRequest<'a> {
             objective: Objective::Distance,
             timing: Timing::default(),
             seed: 0,
+            known: None,
+            allowance: None,
         }
+    }
+
+    /// The allowance used.
+    pub(super) fn allowance(&self) -> Allowance {
+        self.allowance.cloned().unwrap_or_default()
+    }
+
+    /// A share of the work it allows.
+    pub(super) fn share_of_work(&self, share: f64) -> u64 {
+        self.allowance().share(share).most
     }
 }

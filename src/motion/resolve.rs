@@ -27,6 +27,9 @@ const SEARCH_ITERATIONS: usize = 1500;
 /// Iterations of all searches of a plan.
 const ALL_ITERATIONS: usize = 30_000;
 
+/// How much more work than [`Breadth::USUAL`] the other breadth may take, about.
+const THOROUGH: u64 = 4;
+
 /// A visited view with the way to it.
 #[derive(Clone, Debug)]
 pub(crate) struct Stop {
@@ -73,7 +76,7 @@ struct KnownMove {
 
 struct Resolver<'a> {
     scene: &'a Scene<'a>,
-    sweeper: Sweeper,
+    sweeper: &'a mut Sweeper,
     metric: Metric,
     start: Option<StartState>,
     layers: Vec<Layer>,
@@ -90,21 +93,25 @@ enum Verdict {
     NoWay,
 }
 
-/// Legs through `layers` in their order.
+/// Legs through `layers` in their order. Where the work of `sweeper` ends, the views after the
+/// last one that was settled are left out.
 pub(crate) fn resolve(
     scene: &Scene,
+    sweeper: &mut Sweeper,
     metric: &Metric,
     layers: Vec<Layer>,
     start: Option<StartState>,
     seed: u64,
 ) -> Resolved {
-    let usual = resolve_with(scene, metric, layers.clone(), start, seed, Breadth::USUAL);
+    let before = sweeper.work().spent();
+    let usual = resolve_with(scene, sweeper, metric, layers.clone(), start, seed, Breadth::USUAL);
     // A joint that unwinds may not have to, had the motion begun some turns away.
     let unwinds = |stop: &Stop| stop.waypoints.windows(2).any(turns_half);
-    if !usual.stops.iter().any(unwinds) {
+    let again = THOROUGH * (sweeper.work().spent() - before);
+    if !usual.stops.iter().any(unwinds) || again > sweeper.work().left() {
         return usual;
     }
-    let thorough = resolve_with(scene, metric, layers, start, seed, Breadth::ALL_TURNS);
+    let thorough = resolve_with(scene, sweeper, metric, layers, start, seed, Breadth::ALL_TURNS);
     let rank = |r: &Resolved| (r.dropped.len(), r.cost);
     if rank(&thorough) < rank(&usual) { thorough } else { usual }
 }
@@ -116,6 +123,7 @@ fn turns_half(pair: &[Joints]) -> bool {
 
 fn resolve_with(
     scene: &Scene,
+    sweeper: &mut Sweeper,
     metric: &Metric,
     layers: Vec<Layer>,
     start: Option<StartState>,
@@ -124,7 +132,7 @@ fn resolve_with(
 ) -> Resolved {
     let mut resolver = Resolver {
         scene,
-        sweeper: Sweeper::default(),
+        sweeper,
         metric: metric.clone(),
         start,
         layers,
@@ -139,9 +147,13 @@ fn resolve_with(
     let mut changed_from = 0;
     let mut looked_at = 0;
     'choose: while !resolver.layers.is_empty() {
+        if resolver.sweeper.work().is_over() {
+            resolver.give_up(&mut resolved);
+            break;
+        }
         let total = resolver.layers.len();
         let chosen = (looked_at + LOOK_AHEAD).min(total);
-        let chain = match chooser.choose(&resolver.layers, changed_from, chosen) {
+        let chain = match chooser.choose(&resolver.layers, changed_from, chosen, resolver.sweeper.work()) {
             Ok(chain) => chain,
             Err(index) => {
                 changed_from = index.saturating_sub(2);
@@ -221,7 +233,7 @@ impl Resolver<'_> {
         let failed = self.failed_searches.get(&view).copied().unwrap_or(0);
         let seed = self.seed ^ (view as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (failed as u64) << 48;
         let search = Search { seed, iterations: SEARCH_ITERATIONS.min(self.iterations_left) };
-        let (found, used) = detour(self.scene, &mut self.sweeper, from, to, relief_m, &search);
+        let (found, used) = detour(self.scene, self.sweeper, from, to, relief_m, &search);
         self.iterations_left -= used.min(self.iterations_left);
         match found {
             Some(waypoints) => {
@@ -281,6 +293,17 @@ impl Resolver<'_> {
         if let Some(layer) = self.leave_out(index, LegStart::View(before), resolved) {
             *suspect = Some((before, layer));
         }
+    }
+
+    /// Leaves out all views that are not settled.
+    fn give_up(&mut self, resolved: &mut Resolved) {
+        // Stops from the first whose view has fallen out are not connected.
+        let stands = |(stop, layer): &(&Stop, &Layer)| stop.view == layer.view;
+        let standing = resolved.stops.iter().zip(&self.layers).take_while(stands).count();
+        resolved.stops.truncate(standing);
+        let settled: Vec<usize> = resolved.stops.iter().map(|stop| stop.view).collect();
+        let open = self.layers.iter().map(|layer| layer.view).filter(|view| !settled.contains(view));
+        resolved.dropped.extend(open.map(|view| (view, SkipReason::WorkLimit)));
     }
 
     fn leave_out(&mut self, index: usize, from: LegStart, resolved: &mut Resolved) -> Option<Layer> {

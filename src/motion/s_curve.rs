@@ -30,24 +30,7 @@ impl SCurve {
             ratios.fold(f64::INFINITY, f64::min)
         };
         let (speed, acceleration, jerk) = (least(max_speed), least(max_acceleration), least(max_jerk));
-        let (mut jerk_s, mut ramp_s) = if speed * jerk >= acceleration * acceleration {
-            (acceleration / jerk, acceleration / jerk + speed / acceleration)
-        } else {
-            let jerk_s = (speed / jerk).sqrt();
-            (jerk_s, 2.0 * jerk_s)
-        };
-        let mut cruise_s = 1.0 / speed - ramp_s;
-        if cruise_s < 0.0 {
-            // The speed limit is not reached.
-            cruise_s = 0.0;
-            if jerk * jerk >= 2.0 * acceleration.powi(3) {
-                jerk_s = acceleration / jerk;
-                ramp_s = 0.5 * jerk_s + (0.25 * jerk_s * jerk_s + 1.0 / acceleration).sqrt();
-            } else {
-                jerk_s = (0.5 / jerk).cbrt();
-                ramp_s = 2.0 * jerk_s;
-            }
-        }
+        let (jerk_s, ramp_s, cruise_s) = phases(1.0 / speed, 1.0 / acceleration, 1.0 / jerk);
         let duration_s = 2.0 * ramp_s + cruise_s;
         if duration_s.is_nan() || duration_s < SHORTEST_S {
             // Next to no move: four jerks of a quarter of the shortest duration.
@@ -96,6 +79,37 @@ impl SCurve {
             a -= j * dt;
         }
         (s, v, a)
+    }
+}
+
+/// Seconds of the fastest progress from 0 to 1, at rest at both ends, with speed at most `1 / p`,
+/// acceleration at most `1 / q` and jerk at most `1 / r`.
+pub(crate) fn rest_to_rest_s(p: f64, q: f64, r: f64) -> f64 {
+    let (_, ramp_s, cruise_s) = phases(p, q, r);
+    2.0 * ramp_s + cruise_s
+}
+
+/// The same progress: the time in which the acceleration is ramped up, the time until the cruise,
+/// and the cruise.
+fn phases(p: f64, q: f64, r: f64) -> (f64, f64, f64) {
+    let (jerk_s, ramp_s) = if q * q >= p * r {
+        (r / q, r / q + q / p)
+    } else {
+        let jerk_s = (r / p).sqrt();
+        (jerk_s, 2.0 * jerk_s)
+    };
+    let cruise_s = p - ramp_s;
+    // A NaN (nothing moves) is no cruise.
+    if cruise_s >= 0.0 {
+        return (jerk_s, ramp_s, cruise_s);
+    }
+    // The speed limit is not reached.
+    if q * q * q >= 2.0 * r * r {
+        let jerk_s = r / q;
+        (jerk_s, 0.5 * jerk_s + (0.25 * jerk_s * jerk_s + q).sqrt(), 0.0)
+    } else {
+        let jerk_s = (0.5 * r).cbrt();
+        (jerk_s, 2.0 * jerk_s, 0.0)
     }
 }
 

@@ -6,20 +6,36 @@
 //! interval; for the others the interval is halved. A free answer is therefore
 //! a proof (up to [`RESOLUTION_M`]), not a matter of sample spacing.
 
+use std::ops::Range;
+
 use super::joints::{Joints, difference, lerp};
 use super::scene::{Placement, Scene};
+use super::work::Work;
 
 /// By how much the margin may be undercut between two checked states, metres.
 pub(crate) const RESOLUTION_M: f64 = 5e-4;
 /// Halvings after which a move counts as colliding.
 const MOST_HALVINGS: u32 = 14;
+/// Open pairs of all intervals after which a move counts as colliding: bounds the buffer.
+const MOST_OPEN: usize = 1_000_000;
 
 /// Buffers of the checks, reused between them.
 #[derive(Default)]
 pub(crate) struct Sweeper {
     pub placement: Placement,
     open: Vec<Interval>,
-    pairs: Vec<u32>,
+    pairs: Vec<OpenPair>,
+}
+
+/// A pair that is not yet proven to keep its margin.
+#[derive(Clone, Copy)]
+struct OpenPair {
+    index: u32,
+    margin_m: f64,
+    /// Relative motion over the whole move, at most.
+    motion_m: f64,
+    /// Relative motion by straying from it, at most.
+    stray_m: f64,
 }
 
 #[derive(Clone, Copy)]
@@ -32,9 +48,20 @@ struct Interval {
 }
 
 impl Sweeper {
+    /// To check moves under `work`.
+    pub fn new(work: Work) -> Self {
+        Self { placement: Placement::new(work), ..Self::default() }
+    }
+
+    /// What was done and what may be.
+    pub fn work(&mut self) -> &mut Work {
+        &mut self.placement.work
+    }
+
     /// Whether every path whose joints stay within `deviation` of the straight
     /// move from `from` to `to` keeps every margin, less
     /// `relief_m` where the start state undercuts it, and no more than it does there.
+    /// Where the work ends before that is proven, it counts as colliding.
     pub fn is_free(
         &mut self,
         scene: &Scene,
@@ -44,11 +71,34 @@ impl Sweeper {
         relief_m: f64,
     ) -> bool {
         let step = difference(from, to);
-        let pair_motion =
-            |levers: &Joints, d: &Joints| -> f64 { levers.iter().zip(d).map(|(l, d)| l * d.abs()).sum() };
+        let motion_m = |levers: &Joints, d: &Joints| -> f64 {
+            let mut sum = 0.0;
+            for (lever, d) in levers.iter().zip(d) {
+                sum += lever * d.abs();
+            }
+            sum
+        };
+        let strays = deviation.iter().any(|d| *d != 0.0);
+        let stray_m = |levers: &Joints| if strays { motion_m(levers, deviation) } else { 0.0 };
         self.open.clear();
         self.pairs.clear();
-        self.pairs.extend(0..scene.pairs().len() as u32);
+        scene.place(&lerp(from, to, 0.5), &mut self.placement);
+        let add = |open: &mut Vec<OpenPair>, range: Range<usize>| {
+            let pairs = scene.pairs().get(range.clone()).unwrap_or_default();
+            open.extend(range.zip(pairs).map(|(index, pair)| OpenPair {
+                index: index as u32,
+                margin_m: pair.margin_m - relief_m.min(pair.relief_m),
+                motion_m: motion_m(&pair.levers_m, &step),
+                stray_m: stray_m(&pair.levers_m),
+            }));
+        };
+        add(&mut self.pairs, 0..scene.single_pairs());
+        for group in scene.groups() {
+            let travel_m = 0.5 * motion_m(&group.levers_m, &step) + stray_m(&group.levers_m);
+            if scene.group_clearance(group, &mut self.placement) < group.margin_m + travel_m {
+                add(&mut self.pairs, group.pairs.clone());
+            }
+        }
         self.open.push(Interval {
             middle: 0.5,
             half: 0.5,
@@ -59,25 +109,25 @@ impl Sweeper {
         // Breadth first: the middle of a move is where it collides, if it does.
         let mut next = 0;
         while let Some(&interval) = self.open.get(next) {
+            if self.placement.work.is_over() || self.pairs.len() > MOST_OPEN {
+                return false;
+            }
+            // The first one is placed.
+            if next > 0 {
+                scene.place(&lerp(from, to, interval.middle), &mut self.placement);
+            }
             next += 1;
-            scene.place(&lerp(from, to, interval.middle), &mut self.placement);
             let first_pair = self.pairs.len();
             for i in interval.first_pair..interval.first_pair + interval.pair_count {
-                let Some((index, pair)) =
-                    self.pairs.get(i).and_then(|&p| Some((p, scene.pairs().get(p as usize)?)))
-                else {
-                    continue;
-                };
-                let margin = pair.margin_m - relief_m.min(pair.relief_m);
-                let travel = interval.half * pair_motion(&pair.levers_m, &step)
-                    + pair_motion(&pair.levers_m, deviation);
-                let enough = margin + (travel - RESOLUTION_M).max(0.0);
-                let clearance = scene.clearance(index as usize, &self.placement, enough);
-                if clearance < margin {
+                let Some(&pair) = self.pairs.get(i) else { continue };
+                let travel_m = interval.half * pair.motion_m + pair.stray_m;
+                let enough_m = pair.margin_m + (travel_m - RESOLUTION_M).max(0.0);
+                let clearance_m = scene.clearance(pair.index as usize, &mut self.placement, enough_m);
+                if clearance_m < pair.margin_m {
                     return false;
                 }
-                if clearance < enough {
-                    self.pairs.push(index);
+                if clearance_m < enough_m {
+                    self.pairs.push(pair);
                 }
             }
             let pair_count = self.pairs.len() - first_pair;

@@ -1,109 +1,167 @@
 //! Views that suit the arm: those it cannot reach are spread again over the part of the band it can.
 
-use std::collections::BTreeMap;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
-
-use super::arm_path::{ArmPath, arm_path};
+use super::arm_path::{ArmPath, Asked, arm_path};
+use super::asks::Asks;
+use super::survey::{Survey, from_neighbours};
 use super::view_poses::ViewPoses;
 use super::{
-    Arm, Coverage, CoverageReport, PlanError, PlanRequest, UnreachableViews, ViewStatus, Warning, cell,
+    Arm, Coverage, CoverageReport, PlanError, PlanRequest, UnreachableViews, ViewStatus, cell, replaced,
 };
 use crate::geometry::{Direction, Pose};
-use crate::motion::{Reach, Roll};
-use crate::views::{Lattice, ViewSpace, covering_radius_rad, separation_rad, spread};
+use crate::motion::{Allowance, Cell, KnownState, Objective, Reach, Stop};
+use crate::views::{ViewSpace, covering_radius_rad, separation_rad, spread};
 
-/// Directions asked for to know the reachable part of the band, beside its top and its rims.
-const LATTICE: usize = 1200;
-/// The same for arms whose inverse kinematics are searched for numerically: milliseconds a pose.
-const LATTICE_NUMERIC: usize = 150;
-/// How often the moves of views off that lattice may ask for such an arm.
-const ASKED_NUMERIC: usize = 150;
+/// How often the moves of views off the lattice may ask an arm whose inverse kinematics are searched for.
+const ASKED_NUMERIC: usize = 4000;
 /// How often views are spread again because no way to some was found.
 const MORE_ROUNDS: usize = 2;
+/// Parts of the work that may go into the set as it is, and into the search for what is reachable.
+const FIRST: f64 = 0.35;
+const SEARCH: f64 = 0.3;
+/// Reachable views of the set that take the place of missing ones keep this far from the others, as
+/// a part of the set's separation.
+const APART: f64 = 0.5;
 
 /// Plans the motion through the views of `set` or, where some cannot be reached and the request
 /// allows it, through as many that can.
+///
+/// The set as it is is planned first. What is planned instead is at least as many views and, of as
+/// many, leaves no larger hole.
 pub(super) fn adapted_path(
     request: &PlanRequest,
     arm: &Arm,
     set: &ViewPoses,
     end_at_top: bool,
+    stop: &Stop,
 ) -> Result<(ArmPath, Option<CoverageReport>), PlanError> {
     let cell = cell(request, arm);
+    let rounds = Rounds { request, arm, cell: &cell, end_at_top };
+    let all = Allowance::plan(stop);
     let Some(directions) = &set.directions else {
-        return Ok((arm_path(request, arm, &cell, &set.poses, end_at_top)?, None));
+        return Ok((rounds.path(&set.poses, &[], arm.objective, all)?, None));
     };
-    let begin = Instant::now();
     let space = request.view_space();
-    let reach = Reach::new(&cell, arm.roll, arm.start_rad.as_deref())?;
-    let codes = reason_codes(&reach, &set.poses);
-    let left: Vec<Direction> =
-        directions.iter().zip(&codes).filter(|(_, code)| code.is_none()).map(|(d, _)| *d).collect();
-    let before = coverage(&left, &space);
-    let mut adapter = Adapter { reach: &reach, space, survey: None, excluded: Vec::new() };
-    let mut views = set.poses.clone();
-    let mut at = directions.clone();
-    let replace = arm.unreachable_views == UnreachableViews::Replace;
-    if replace && left.len() < directions.len() {
-        at = adapter.views(directions, &codes);
-        views = poses(&space, &at);
+    if arm.unreachable_views == UnreachableViews::Skip {
+        let path = rounds.path(&set.poses, &[], arm.objective, all)?;
+        let planned = coverage(&taken(directions, &path.statuses), &space);
+        return Ok((
+            path,
+            Some(CoverageReport { before: planned, after: planned, reachable_fraction: None }),
+        ));
     }
-    let mut best = arm_path(request, arm, &cell, &views, end_at_top)?;
-    let mut best_at = at.clone();
-    let mut latest = (best.statuses.clone(), at);
-    for _ in 0..if replace { MORE_ROUNDS } else { 0 } {
-        let lost = without_way(&latest.0, &latest.1);
+    let mut clock = Stopwatch::start();
+    let reach = Reach::new(&cell, arm.roll, arm.start_rad.as_deref())?;
+    let mut asks = Asks::new(&reach, all.share(SEARCH));
+    let searching = asks.left.most;
+    let answers = asks.ask(&set.poses, |probe, pose| probe.reaches(pose));
+    let whole = answers.iter().all(|answer| *answer == Some(true));
+    // A set that will be replaced is planned for its views alone.
+    let objective = if whole { arm.objective } else { Objective::Distance };
+    clock.pause();
+    let first = rounds.path(&set.poses, &[], objective, all.share(FIRST))?;
+    let mut spent = first.work;
+    let before = coverage(&taken(directions, &first.statuses), &space);
+    if before.views == directions.len() {
+        return Ok((first, Some(CoverageReport { before, after: before, reachable_fraction: None })));
+    }
+    let statuses = first.statuses.clone();
+    clock.go_on();
+    let survey = Survey::ask(&reach, &space, directions.len(), &mut asks);
+    let fraction = survey.fraction;
+    let mut adapter = Adapter { reach: &reach, space, survey, excluded: Vec::new(), asks };
+    if whole {
+        adapter.exclude(&without_way(&statuses, directions), separation_rad(directions));
+    }
+    let mut best = Round { path: first, at: directions.clone(), coverage: before };
+    let mut dropped = Duration::ZERO;
+    for _ in 0..=MORE_ROUNDS {
+        let Some((at, known)) = adapter.views(directions, &statuses, before.views) else { break };
+        clock.pause();
+        let left = all.less(spent + searching - adapter.asks.left.most);
+        let path = rounds.path(&poses(&space, &at), &known, arm.objective, left)?;
+        clock.go_on();
+        spent += path.work;
+        let lost = without_way(&path.statuses, &at);
+        let found = Round { coverage: coverage(&taken(&at, &path.statuses), &space), path, at };
+        adapter.exclude(&lost, separation_rad(&found.at));
+        let (count, better) = (found.at.len(), found.is_better_than(&best));
+        let other = if better { std::mem::replace(&mut best, found) } else { found };
+        dropped += other.path.time();
         // Where most views are cut off it is the whole that is: leaving places out cannot help.
-        if lost.is_empty() || 2 * lost.len() > latest.1.len() {
+        if lost.is_empty() || 2 * lost.len() > count {
             break;
         }
-        adapter.exclude(&lost, 0.5 * separation_rad(&latest.1));
-        let at = adapter.views(directions, &codes);
-        let found = arm_path(request, arm, &cell, &poses(&space, &at), end_at_top)?;
-        latest = (found.statuses.clone(), at);
-        if planned(&found.statuses) > planned(&best.statuses) {
-            (best, best_at) = (found, latest.1.clone());
-        }
     }
-    let taken: Vec<Direction> = best_at
-        .iter()
-        .zip(&best.statuses)
-        .filter(|(_, status)| **status == ViewStatus::Planned)
-        .map(|(direction, _)| *direction)
-        .collect();
-    let reachable_fraction = adapter.survey.as_ref().map(|survey| survey.fraction);
-    let report = CoverageReport { before, after: coverage(&taken, &space), reachable_fraction };
-    if best_at != *directions {
-        best.warnings.push(replaced_warning(&report, &codes, directions.len(), arm.roll));
+    let report = CoverageReport { before, after: best.coverage, reachable_fraction: Some(fraction) };
+    let is_replaced = best.at != *directions;
+    let mut path = best.path;
+    if is_replaced {
+        path.warnings.push(replaced::warning(&report, &statuses, arm.roll));
+    } else if objective != arm.objective {
+        dropped += path.time();
+        let left = all.less(spent + searching - adapter.asks.left.most);
+        path = rounds.path(&set.poses, &[], arm.objective, left)?;
     }
-    // Motions that were dropped for a better one count here.
-    let kept = best.timings.iter().map(|(_, time)| *time).sum();
-    best.timings.push(("adapt", begin.elapsed().saturating_sub(kept)));
-    Ok((best, Some(report)))
+    path.timings.extend([("adapt", clock.elapsed()), ("dropped_motions", dropped)]);
+    Ok((path, Some(report)))
 }
 
-/// Stable code of the reason why each pose cannot be taken; `None` for those that can.
-fn reason_codes(reach: &Reach, poses: &[Pose]) -> Vec<Option<&'static str>> {
-    poses
-        .par_iter()
-        .map_init(|| reach.probe(), |probe, pose| probe.reason(pose).map(|reason| reason.code()))
-        .collect()
+/// What all rounds have in common.
+struct Rounds<'a> {
+    request: &'a PlanRequest,
+    arm: &'a Arm,
+    cell: &'a Cell,
+    end_at_top: bool,
+}
+
+impl Rounds<'_> {
+    fn path(
+        &self,
+        poses: &[Pose],
+        known: &[Option<KnownState>],
+        objective: Objective,
+        allowance: Allowance,
+    ) -> Result<ArmPath, PlanError> {
+        let asked = Asked { poses, known, end_at_top: self.end_at_top, objective, allowance };
+        arm_path(self.request, self.arm, self.cell, &asked)
+    }
+}
+
+/// A set of views and the motion through it.
+struct Round {
+    path: ArmPath,
+    at: Vec<Direction>,
+    /// Of the planned views.
+    coverage: Coverage,
+}
+
+impl Round {
+    /// More views, or as many and a smaller hole.
+    fn is_better_than(&self, other: &Round) -> bool {
+        let (this, other) = (&self.coverage, &other.coverage);
+        this.views > other.views
+            || (this.views == other.views && this.largest_hole_rad < other.largest_hole_rad)
+    }
 }
 
 fn poses(space: &ViewSpace, directions: &[Direction]) -> Vec<Pose> {
     directions.iter().map(|direction| space.pose(direction, 0.0)).collect()
 }
 
-fn planned(statuses: &[ViewStatus]) -> usize {
-    statuses.iter().filter(|status| **status == ViewStatus::Planned).count()
+fn taken(at: &[Direction], statuses: &[ViewStatus]) -> Vec<Direction> {
+    let planned = at.iter().zip(statuses).filter(|(_, status)| **status == ViewStatus::Planned);
+    planned.map(|(direction, _)| *direction).collect()
+}
+
+fn has_code(status: &ViewStatus, code: &str) -> bool {
+    matches!(status, ViewStatus::Skipped(reason) if reason.code == code)
 }
 
 fn without_way(statuses: &[ViewStatus], at: &[Direction]) -> Vec<Direction> {
-    let no_way =
-        |status: &ViewStatus| matches!(status, ViewStatus::Skipped(reason) if reason.code == "no_path");
-    at.iter().zip(statuses).filter(|(_, status)| no_way(status)).map(|(direction, _)| *direction).collect()
+    let lost = at.iter().zip(statuses).filter(|(_, status)| has_code(status, "no_path"));
+    lost.map(|(direction, _)| *direction).collect()
 }
 
 /// How well `directions` are spread over the whole band.
@@ -119,29 +177,27 @@ fn coverage(directions: &[Direction], space: &ViewSpace) -> Coverage {
 struct Adapter<'a> {
     reach: &'a Reach<'a>,
     space: ViewSpace,
-    survey: Option<Survey>,
+    survey: Survey,
     /// Directions without a way to them, and how far around nothing is tried, radians.
     excluded: Vec<(Direction, f64)>,
-}
-
-/// The band, asked direction by direction.
-struct Survey {
-    lattice: Lattice,
-    usable: Vec<bool>,
-    fraction: f64,
+    asks: Asks<'a>,
 }
 
 impl Adapter<'_> {
-    fn exclude(&mut self, lost: &[Direction], radius_rad: f64) {
-        self.excluded.extend(lost.iter().map(|direction| (*direction, radius_rad)));
+    fn exclude(&mut self, lost: &[Direction], apart_rad: f64) {
+        self.excluded.extend(lost.iter().map(|direction| (*direction, 0.5 * apart_rad)));
     }
 
-    /// As many views as `set` has: reachable ones well apart and, if too few exist, after them
-    /// those of `set` that cannot be reached.
-    fn views(&mut self, set: &[Direction], codes: &[Option<&'static str>]) -> Vec<Direction> {
-        let (reach, space) = (self.reach, self.space);
-        let survey = self.survey.get_or_insert_with(|| survey(reach, &space));
-        let excluded = &self.excluded;
+    /// As many views as `set` has, with the states that are known for them: reachable ones well
+    /// apart and, if there are too few, after them others of the set, whose `statuses` tell which
+    /// can be reached. `None` where no more than `more_than` of them could be taken.
+    fn views(
+        &mut self,
+        set: &[Direction],
+        statuses: &[ViewStatus],
+        more_than: usize,
+    ) -> Option<(Vec<Direction>, Vec<Option<KnownState>>)> {
+        let Self { reach, space, survey, excluded, asks } = self;
         let allowed = |direction: &Direction| {
             let near = |(lost, radius_rad): &(Direction, f64)| lost.dot(direction) > radius_rad.cos();
             !excluded.iter().any(near)
@@ -149,67 +205,70 @@ impl Adapter<'_> {
         let directions = survey.lattice.directions.iter();
         let usable: Vec<bool> =
             directions.zip(&survey.usable).map(|(d, usable)| *usable && allowed(d)).collect();
-        let mut probe = reach.probe();
-        let mut usable_at =
-            |direction: &Direction| allowed(direction) && probe.reaches(&space.pose(direction, 0.0));
-        let most_asked = if reach.is_quick() { usize::MAX } else { ASKED_NUMERIC };
+        let mut probe = reach.probe(&asks.left);
+        let mut moved: Vec<(Direction, KnownState)> = Vec::new();
+        let quick = reach.is_quick();
+        let mut usable_at = |direction: &Direction| {
+            let pose = space.pose(direction, 0.0);
+            if !allowed(direction) || quick {
+                return allowed(direction) && probe.reaches(&pose);
+            }
+            let state = from_neighbours(&mut probe, space, &pose, &survey.states);
+            moved.extend(state.iter().map(|state| (*direction, state.clone())));
+            state.is_some()
+        };
+        let most_asked = if quick { usize::MAX } else { ASKED_NUMERIC };
         let mut views = spread(set.len(), &survey.lattice, &usable, most_asked, &mut usable_at);
-        let (left, unreachable): (Vec<_>, Vec<_>) =
-            set.iter().zip(codes).partition(|(_, code)| code.is_none());
-        // A coarse lattice may hold fewer than the set itself has.
-        if views.len() < set.len() && views.len() <= left.iter().filter(|(d, _)| allowed(d)).count() {
-            return set.to_vec();
+        asks.left = asks.left.less(probe.spent());
+        // A coarse lattice may hold fewer than the set itself has: those that stand clear of them.
+        let apart = (APART * separation_rad(set)).cos();
+        for (direction, status) in set.iter().zip(statuses) {
+            let stands_clear = views.iter().all(|view| view.dot(direction) < apart);
+            if views.len() < set.len() && *status == ViewStatus::Planned && allowed(direction) && stands_clear
+            {
+                views.push(*direction);
+            }
         }
-        let missing = set.len() - views.len().min(set.len());
-        let rest = unreachable.iter().chain(&left);
-        views.extend(rest.take(missing).map(|(direction, _)| **direction));
-        views
+        if views.len() <= more_than {
+            return None;
+        }
+        let missing = set.len().saturating_sub(views.len());
+        let rest = set
+            .iter()
+            .zip(statuses)
+            .filter(|(d, status)| **status != ViewStatus::Planned && !views.contains(d));
+        let rest: Vec<Direction> = rest.map(|(direction, _)| *direction).collect();
+        views.extend(rest.into_iter().take(missing));
+        let state = |view: &Direction| {
+            let of_move = moved.iter().rev().find(|(at, _)| at == view).map(|(_, state)| state);
+            of_move.or_else(|| survey.state(view)).cloned()
+        };
+        let known = views.iter().map(state).collect();
+        Some((views, known))
     }
 }
 
-fn survey(reach: &Reach, space: &ViewSpace) -> Survey {
-    let lattice = Lattice::new(space.band, if reach.is_quick() { LATTICE } else { LATTICE_NUMERIC });
-    let usable: Vec<bool> = lattice
-        .directions
-        .par_iter()
-        .map_init(|| reach.probe(), |probe, direction| probe.reaches(&space.pose(direction, 0.0)))
-        .collect();
-    let fraction = lattice.usable_share(&usable);
-    Survey { lattice, usable, fraction }
+/// Measures with pauses.
+struct Stopwatch {
+    so_far: Duration,
+    since: Option<Instant>,
 }
 
-fn replaced_warning(
-    report: &CoverageReport,
-    codes: &[Option<&'static str>],
-    count: usize,
-    roll: Roll,
-) -> Warning {
-    let CoverageReport { before, after, reachable_fraction } = report;
-    let unreachable = codes.iter().flatten().count();
-    let what = match unreachable {
-        0 => format!("no way was found to some of the {count} views of the set"),
-        _ => format!("{unreachable} of {count} views of the set cannot be reached ({})", counts(codes)),
-    };
-    let share = reachable_fraction.map_or(String::new(), |share| format!(" {:.0} % of the", 100.0 * share));
-    let hint = if roll == Roll::Fixed { "; roll \"free\" may reach more" } else { "" };
-    Warning::new(
-        "views_replaced",
-        format!(
-            "{what}: {} views are spread over the reachable{share} band instead, separation {:.1} deg and largest \
-             hole {:.1} deg, where leaving views out would keep {} with {:.1} and {:.1} deg{hint}",
-            after.views,
-            after.separation_rad.to_degrees(),
-            after.largest_hole_rad.to_degrees(),
-            before.views,
-            before.separation_rad.to_degrees(),
-            before.largest_hole_rad.to_degrees(),
-        ),
-    )
-}
+impl Stopwatch {
+    fn start() -> Self {
+        Self { so_far: Duration::ZERO, since: Some(Instant::now()) }
+    }
 
-/// `3 no_ik, 4 self_collision`.
-fn counts(codes: &[Option<&'static str>]) -> String {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    codes.iter().flatten().for_each(|code| *counts.entry(code).or_default() += 1);
-    counts.iter().map(|(code, count)| format!("{count} {code}")).collect::<Vec<_>>().join(", ")
+    fn pause(&mut self) {
+        self.so_far = self.elapsed();
+        self.since = None;
+    }
+
+    fn go_on(&mut self) {
+        self.since = Some(Instant::now());
+    }
+
+    fn elapsed(&self) -> Duration {
+        self.so_far + self.since.map_or(Duration::ZERO, |since| since.elapsed())
+    }
 }

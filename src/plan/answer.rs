@@ -44,7 +44,7 @@ pub struct Coverage {
 /// What adapting a set to the arm changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoverageReport {
-    /// The Tammes set without the views that cannot be reached.
+    /// The views planned of the Tammes set when those that the arm cannot take are left out.
     pub before: Coverage,
     /// The views planned.
     pub after: Coverage,
@@ -106,7 +106,8 @@ pub enum ViewStatus {
 /// Why a view is left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reason {
-    /// `no_ik`, `joint_limit`, `self_collision`, `table_collision`, `object_collision` or `no_path`.
+    /// `no_ik`, `joint_limit`, `self_collision`, `table_collision`, `object_collision`,
+    /// `obstacle_collision`, `no_path` or `work_limit`.
     pub code: &'static str,
     /// For people.
     pub message: String,

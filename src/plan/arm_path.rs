@@ -10,7 +10,10 @@ use super::{
     ViewStatus, Warning,
 };
 use crate::geometry::Pose;
-use crate::motion::{Cell, MotionPlan, MotionRequest, Order, ViewOutcome, plan_motion};
+use crate::motion::{
+    Allowance, Cell, KnownState, MotionPlan, MotionRequest, Objective, Order, SkipReason, ViewOutcome,
+    plan_motion,
+};
 use crate::order::{OPTIMALITY_TOLERANCE, OrderedPath, order_points};
 
 /// What the arm makes of the views.
@@ -24,6 +27,25 @@ pub(super) struct ArmPath {
     pub(super) trajectory: Option<Trajectory>,
     pub(super) warnings: Vec<Warning>,
     pub(super) timings: Vec<(&'static str, Duration)>,
+    /// Work that it took.
+    pub(super) work: u64,
+}
+
+impl ArmPath {
+    /// Time that planning it took.
+    pub(super) fn time(&self) -> Duration {
+        self.timings.iter().map(|(_, time)| *time).sum()
+    }
+}
+
+/// What a motion is planned through, and how.
+pub(super) struct Asked<'a> {
+    pub(super) poses: &'a [Pose],
+    /// For each pose a state that takes it, where one is known; or empty.
+    pub(super) known: &'a [Option<KnownState>],
+    pub(super) end_at_top: bool,
+    pub(super) objective: Objective,
+    pub(super) allowance: Allowance,
 }
 
 /// Plans the motion through `poses`, the first of which is the top view.
@@ -35,10 +57,10 @@ pub(super) fn arm_path(
     request: &PlanRequest,
     arm: &Arm,
     cell: &Cell,
-    poses: &[Pose],
-    end_at_top: bool,
+    asked: &Asked,
 ) -> Result<ArmPath, PlanError> {
     let begin = Instant::now();
+    let &Asked { poses, known, end_at_top, objective, ref allowance } = asked;
     let ordering = Ordering { request, poses, last: RefCell::new(None) };
     let by_length = |kept: &[usize], first: usize| ordering.order(kept, first);
     // Initial views are few: their order is fixed beforehand, and the unreachable ones fall out.
@@ -50,11 +72,15 @@ pub(super) fn arm_path(
         (0..poses.len()).collect()
     };
     let views: Vec<Pose> = listed.iter().filter_map(|view| poses.get(*view).copied()).collect();
+    let known: Vec<Option<KnownState>> =
+        listed.iter().map(|view| known.get(*view).cloned().flatten()).collect();
     let motion = plan_motion(&MotionRequest {
         start: arm.start_rad.as_deref(),
         roll: arm.roll,
         order: if end_at_top { Order::AsGiven } else { Order::By(&by_length) },
-        objective: arm.objective,
+        objective,
+        known: Some(&known),
+        allowance: Some(allowance),
         timing: arm.timing,
         ..MotionRequest::new(cell, &views)
     })?;
@@ -76,14 +102,30 @@ pub(super) fn arm_path(
         }
     }
     let order_time = ordering.time();
+    let work = motion.work;
     Ok(ArmPath {
         statuses,
         poses: rolled,
         path,
         motion_time,
+        warnings: unsettled(&motion.views).into_iter().collect(),
         trajectory: trajectory(motion, view_of),
-        warnings: Vec::new(),
         timings: vec![("order", order_time), ("motion", planning_time)],
+        work,
+    })
+}
+
+/// What to say where the work did not suffice.
+fn unsettled(views: &[ViewOutcome]) -> Option<Warning> {
+    let count =
+        views.iter().filter(|view| matches!(view, ViewOutcome::Skipped(SkipReason::WorkLimit))).count();
+    (count > 0).then(|| {
+        let text = format!(
+            "the cell is so hard that the planner's work ended before {count} of {} views were settled: fewer \
+             solids, keep-out regions, rolls or views leave more for each",
+            views.len()
+        );
+        Warning::new("work_limit", text)
     })
 }
 

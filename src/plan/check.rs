@@ -1,6 +1,9 @@
 //! Bounds of a request's numbers, and the usual mistakes behind values outside them.
 
-use super::{Arm, ObjectSphere, PlanError, PlanRequest, ViewSource, Warning, hand_eye, photos, surroundings};
+use super::{
+    Arm, ObjectSphere, PlanError, PlanRequest, ViewSource, Warning, hand_eye, photos, surroundings,
+    work_bound,
+};
 use crate::views::{Band, MAX_VIEWS};
 
 /// Largest coordinate of the object's centre and of the table, metres: beyond any arm's reach.
@@ -51,6 +54,7 @@ pub fn check(request: &PlanRequest) -> Result<Vec<Warning>, PlanError> {
     if let Some(arm) = &request.arm {
         warnings.extend(check_arm(arm)?);
         warnings.extend(surroundings::check(request, arm)?);
+        work_bound::check(request, arm)?;
     }
     Ok(warnings)
 }

@@ -8,6 +8,7 @@ use super::{
     Plan, PlanError, PlanRequest, PlanView, ViewCount, ViewSource, ViewStatus, Warning, check,
     expected_views, predict_count, view_poses,
 };
+use crate::motion::Stop;
 use crate::predict::Predictor;
 
 /// Plans `request`: check, number of views, set, poses, order and, with an arm, its motion.
@@ -18,6 +19,19 @@ use crate::predict::Predictor;
 /// # Errors
 /// [`PlanError`]. Views that cannot be reached are no error: they are skipped with their reasons.
 pub fn make_plan(request: &PlanRequest, predictor: Result<&Predictor, &str>) -> Result<Plan, PlanError> {
+    make_plan_until(request, predictor, &Stop::default())
+}
+
+/// [`make_plan`], which ends with [`MotionError::Stopped`](crate::motion::MotionError::Stopped) soon
+/// after `stop` is asked for.
+///
+/// # Errors
+/// Those of [`make_plan`].
+pub fn make_plan_until(
+    request: &PlanRequest,
+    predictor: Result<&Predictor, &str>,
+    stop: &Stop,
+) -> Result<Plan, PlanError> {
     let mut clock = Clock::start();
     let mut warnings = check(request)?;
     clock.lap("check");
@@ -46,7 +60,7 @@ pub fn make_plan(request: &PlanRequest, predictor: Result<&Predictor, &str>) -> 
     let end_at_top = matches!(request.source, ViewSource::Initial { .. });
     let (statuses, poses, path, motion_time, trajectory, coverage) = match &request.arm {
         Some(arm) => {
-            let (found, coverage) = adapted_path(request, arm, &views, end_at_top)?;
+            let (found, coverage) = adapted_path(request, arm, &views, end_at_top, stop)?;
             clock.laps.extend(found.timings);
             warnings.extend(found.warnings);
             (found.statuses, found.poses, found.path, found.motion_time, found.trajectory, coverage)

@@ -7,6 +7,7 @@
 mod adapt_views;
 mod answer;
 mod arm_path;
+mod asks;
 mod check;
 mod error;
 mod free_path;
@@ -18,12 +19,18 @@ mod photos;
 mod predict_count;
 mod random_cell;
 mod reachability;
+mod replaced;
 mod request;
 mod skip_reason;
 mod surroundings;
+mod survey;
 mod trajectory;
 mod verify;
 mod view_poses;
+mod work_bound;
+
+#[cfg(test)]
+mod tests;
 
 pub use answer::{
     CameraPath, Coverage, CoverageReport, ExpectedView, MotionFigures, MotionTime, Plan, PlanView, Reason,
@@ -31,13 +38,13 @@ pub use answer::{
 };
 pub use check::{check, length};
 pub use error::{FieldValue, PlanError};
-pub use make_plan::make_plan;
+pub use make_plan::{make_plan, make_plan_until};
 pub use photo_content::{blank_images, unlike_training};
 pub use photos::{MAX_PHOTOS, expected_views};
 pub use predict_count::predict_count;
 pub use random_cell::{RandomCells, RandomOutcome};
-pub use reachability::{Place, Reachability, reachability};
+pub use reachability::{Place, Reachability, reachability, reachability_until};
 pub use request::{Arm, ObjectSphere, PlanRequest, UnreachableViews, ViewShell, ViewSource};
 pub use surroundings::{MAX_KEEP_OUT, MAX_SOLIDS, Surroundings, cell, check_solid};
 pub use trajectory::{Trajectory, TrajectoryPoint};
-pub use verify::{ClaimedPlan, Finding, PlanVerdict, verify};
+pub use verify::{ClaimedPlan, Finding, PlanVerdict, verify, verify_until};

@@ -23,6 +23,7 @@ pub(super) fn reason(skipped: &SkipReason, view_of: impl Fn(usize) -> usize) -> 
                 ("beyond_rad", (value_rad - limit_rad).abs()),
             ],
         ),
+        SkipReason::WorkLimit => (Vec::new(), Vec::new()),
         SkipReason::Collision(contact) => (
             vec![contact.first.clone(), contact.second.clone()],
             vec![("depth_m", contact.depth_m), ("distance_m", contact.distance_m)],

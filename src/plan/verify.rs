@@ -1,13 +1,14 @@
 //! Whether a plan is what its request asks for: from the plan's own numbers, whoever wrote them.
 
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
 use super::{Arm, PlanRequest, TrajectoryPoint, ViewSource, cell};
 use crate::geometry::{Pose, Vector};
-use crate::motion::{self, Claim, ClaimedView, Looked, Roll, check_claim};
+use crate::motion::{self, Claim, ClaimedView, Looked, MOST_OF_A_KIND, Roll, Stop, check_claim};
 
 /// What counts as rounding: metres and radians.
 const TOLERANCE: f64 = 1e-5;
-/// Most findings.
-const MOST_FINDINGS: usize = 100;
 
 /// A plan as its JSON claims it to be.
 #[derive(Clone, Debug, Default)]
@@ -40,10 +41,28 @@ pub struct Finding {
 /// The verdict on a plan.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlanVerdict {
-    /// What is wrong, at most 100 entries and ten of a kind of the motion's; empty for a sound plan.
+    /// What is wrong, at most ten entries of a kind; empty for a sound plan.
     pub findings: Vec<Finding>,
     /// What of the motion was looked at.
     pub looked: Looked,
+}
+
+/// Collects what is wrong, the first of every kind: what a hundred views have in common must not
+/// hide what a single one has.
+#[derive(Default)]
+struct Findings {
+    listed: Vec<Finding>,
+    of_kind: BTreeMap<&'static str, usize>,
+}
+
+impl Findings {
+    fn push(&mut self, finding: Finding) {
+        let count = self.of_kind.entry(finding.code).or_insert(0);
+        *count += 1;
+        if *count <= MOST_OF_A_KIND {
+            self.listed.push(finding);
+        }
+    }
 }
 
 impl Finding {
@@ -57,36 +76,43 @@ impl Finding {
 /// The views must lie on the request's shell, look at the object and, on an arm, be taken by a
 /// motion that [`check_claim`] finds nothing wrong with.
 pub fn verify(request: &PlanRequest, plan: &ClaimedPlan) -> PlanVerdict {
-    let mut findings = Vec::new();
+    verify_until(request, plan, &Stop::default())
+}
+
+/// [`verify`], which ends soon after `stop` is asked for: then the motion is not proven.
+pub fn verify_until(request: &PlanRequest, plan: &ClaimedPlan, stop: &Stop) -> PlanVerdict {
+    let mut findings = Findings::default();
     count(request, plan, &mut findings);
     for (id, view) in plan.views.iter().enumerate() {
         let fixed_roll = request.arm.as_ref().is_none_or(|arm| arm.roll == Roll::Fixed);
         view_pose(request, id, &view.base_from_camera, fixed_roll, &mut findings);
     }
     order(request, plan, &mut findings);
-    let mut verdict = PlanVerdict { findings, looked: Looked::default() };
+    let mut verdict = PlanVerdict { findings: findings.listed, looked: Looked::default() };
     if let Some(arm) = &request.arm {
-        motion(request, arm, plan, &mut verdict);
+        motion(request, arm, plan, stop, &mut verdict);
     }
     if request.arm.is_none() && !plan.points.is_empty() {
         let message = "the plan has a trajectory, but the request names no robot to judge it by".to_owned();
         verdict.findings.push(Finding::new("unexpected_trajectory", message, Vec::new()));
     }
-    verdict.findings.truncate(MOST_FINDINGS);
     verdict
 }
 
-fn count(request: &PlanRequest, plan: &ClaimedPlan, findings: &mut Vec<Finding>) {
-    let least = match &request.source {
+fn count(request: &PlanRequest, plan: &ClaimedPlan, findings: &mut Findings) {
+    let asked = match &request.source {
         ViewSource::Count(count) => *count,
         ViewSource::Initial { five } => 3 + 2 * usize::from(*five),
-        ViewSource::Photos(_) => 1,
+        ViewSource::Photos(_) => return,
     };
-    if plan.views.len() < least {
-        let numbers = vec![("views", plan.views.len() as f64), ("asked", least as f64)];
-        let message = format!("the plan has {} views, {least} were asked for", plan.views.len());
-        findings.push(Finding::new("view_missing", message, numbers));
-    }
+    let code = match plan.views.len().cmp(&asked) {
+        Ordering::Less => "view_missing",
+        Ordering::Equal => return,
+        Ordering::Greater => "view_not_asked_for",
+    };
+    let numbers = vec![("views", plan.views.len() as f64), ("asked", asked as f64)];
+    let message = format!("the plan has {} views, {asked} were asked for", plan.views.len());
+    findings.push(Finding::new(code, message, numbers));
 }
 
 /// Whether a view lies on the shell, in the band, looks at the centre and keeps its horizon.
@@ -95,7 +121,7 @@ fn view_pose(
     id: usize,
     base_from_camera: &Pose,
     fixed_roll: bool,
-    findings: &mut Vec<Finding>,
+    findings: &mut Findings,
 ) {
     let center = request.object().center_in_base;
     let from_center = base_from_camera.translation.vector - center.coords;
@@ -130,7 +156,7 @@ fn view_pose(
     }
 }
 
-fn order(request: &PlanRequest, plan: &ClaimedPlan, findings: &mut Vec<Finding>) {
+fn order(request: &PlanRequest, plan: &ClaimedPlan, findings: &mut Findings) {
     let mut visits = vec![0usize; plan.views.len()];
     for id in &plan.order {
         match visits.get_mut(*id) {
@@ -157,7 +183,7 @@ fn order(request: &PlanRequest, plan: &ClaimedPlan, findings: &mut Vec<Finding>)
     }
 }
 
-fn motion(request: &PlanRequest, arm: &Arm, plan: &ClaimedPlan, verdict: &mut PlanVerdict) {
+fn motion(request: &PlanRequest, arm: &Arm, plan: &ClaimedPlan, stop: &Stop, verdict: &mut PlanVerdict) {
     if plan.points.is_empty() {
         if !plan.order.is_empty() {
             let message = "views are planned for an arm but there is no trajectory".to_owned();
@@ -191,6 +217,7 @@ fn motion(request: &PlanRequest, arm: &Arm, plan: &ClaimedPlan, verdict: &mut Pl
         views: &plan.views,
         order: &plan.order,
         trajectory: &trajectory,
+        stop: Some(stop),
     });
     verdict.looked = found.looked;
     verdict.findings.extend(found.violations.iter().map(|violation| Finding {

@@ -64,4 +64,10 @@ pub trait Kinematics: std::fmt::Debug + Send + Sync {
     /// move from there. A numeric arm tries `previous` first and searches
     /// further only if that fails.
     fn inverse_near(&self, base_from_flange: &Pose, previous: &[f64]) -> InverseSolutions;
+
+    /// The joint state for `base_from_flange` that lies next to `previous`, if one is found from there
+    /// without a search: what a pose near to one that was reached costs least.
+    fn inverse_from(&self, base_from_flange: &Pose, previous: &[f64]) -> Option<Vec<f64>> {
+        self.inverse_near(base_from_flange, previous).solutions.into_iter().next()
+    }
 }

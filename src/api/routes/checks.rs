@@ -10,6 +10,7 @@ use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 use crate::api::store::PlanStore;
 use crate::api::wire::{CheckAnswer, CheckedPlanJson, CreateCheck, PlanRequestJson};
+use crate::motion::Stop;
 
 /// Check a plan, whoever wrote or changed it.
 ///
@@ -28,12 +29,12 @@ pub async fn create(State(app): State<AppState>, request: Request) -> Result<Jso
     let admission = app.heavy.admit()?;
     let JsonBody(json) = JsonBody::<CreateCheck>::from_request(request, &app).await?;
     let plans = app.plans.clone();
-    let work = move || match (json.plan_id, json.request, json.plan) {
+    let work = move |stop: &Stop| match (json.plan_id, json.request, json.plan) {
         (Some(id), None, None) => {
             let (request, plan) = stored(&plans, &id)?;
-            check_plan(request, plan)
+            check_plan(request, plan, stop)
         }
-        (None, Some(request), Some(plan)) => check_plan(request, plan).map_err(in_pair),
+        (None, Some(request), Some(plan)) => check_plan(request, plan, stop).map_err(in_pair),
         (id, request, plan) => {
             let given = [("plan_id", id.is_some()), ("request", request.is_some()), ("plan", plan.is_some())];
             let names: Vec<&str> = given.iter().filter(|(_, g)| *g).map(|(name, _)| *name).collect();
@@ -42,7 +43,7 @@ pub async fn create(State(app): State<AppState>, request: Request) -> Result<Jso
             Err(Problem::field("check_source", "body", value, bound))
         }
     };
-    app.heavy.run(admission, work).await.map(Json)
+    app.heavy.run_while_awaited(admission, work).await.map(Json)
 }
 
 /// The members of the request are those of `request` here.

@@ -12,6 +12,7 @@ use crate::api::planner::ResolvedRequest;
 use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
 use crate::api::wire::{PlanAnswer, PlanList, PlanRequestJson};
+use crate::motion::Stop;
 
 /// Plan views, order and motion.
 ///
@@ -30,20 +31,20 @@ pub async fn create(State(app): State<AppState>, request: Request) -> Result<Res
     let admission = app.heavy.admit()?;
     let JsonBody(json) = JsonBody::<PlanRequestJson>::from_request(request, &app).await?;
     let (planner, plans) = (app.planner.clone(), app.plans.clone());
-    let work = move || -> Result<(String, Vec<u8>, bool), Problem> {
+    let work = move |stop: &Stop| -> Result<(String, Vec<u8>, bool), Problem> {
         let request = ResolvedRequest::from(json);
         let id = planner.plan_id(&request)?;
         if let Some(stored) = plans.answer(&id)? {
             return Ok((id, stored, false));
         }
-        let answer = planner.plan(&request)?;
+        let answer = planner.plan_until(&request, stop)?;
         let encode = |e: serde_json::Error| Problem::internal(e.to_string());
         let bytes = serde_json::to_vec(&answer).map_err(encode)?;
         let cell = serde_json::to_vec(&request.without_images()).map_err(encode)?;
         let (stored, new) = plans.put(&id, bytes, &cell)?;
         Ok((id, stored, new))
     };
-    let (id, bytes, new) = app.heavy.run(admission, work).await?;
+    let (id, bytes, new) = app.heavy.run_within(admission, app.config.request_timeout, work).await?;
     let mut response = json_bytes(bytes);
     if new {
         *response.status_mut() = StatusCode::CREATED;

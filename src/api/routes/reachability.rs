@@ -11,6 +11,7 @@ use crate::api::planner::reachability_of;
 use crate::api::problem::Problem;
 use crate::api::state::AppState;
 use crate::api::wire::{PlanRequestJson, ReachabilityAnswer};
+use crate::motion::Stop;
 
 /// Resolution of the grid.
 #[derive(Clone, Copy, Debug, Deserialize, IntoParams)]
@@ -42,9 +43,9 @@ pub async fn create(
 ) -> Result<Json<ReachabilityAnswer>, Problem> {
     let admission = app.heavy.admit()?;
     let JsonBody(json) = JsonBody::<PlanRequestJson>::from_request(request, &app).await?;
-    let work = move || {
+    let work = move |stop: &Stop| {
         let [rows, columns] = [query.elevations, query.azimuths].map(|count| count.map(|n| n as usize));
-        reachability_of(&json, rows, columns)
+        reachability_of(&json, rows, columns, stop)
     };
-    app.heavy.run(admission, work).await.map(Json)
+    app.heavy.run_while_awaited(admission, work).await.map(Json)
 }

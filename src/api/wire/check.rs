@@ -54,7 +54,7 @@ pub struct CheckedViewJson {
 pub struct CheckAnswer {
     /// True when nothing is wrong.
     pub sound: bool,
-    /// What is wrong, at most 100 entries, and ten of each kind for the motion.
+    /// What is wrong, at most ten entries of each kind.
     pub violations: Vec<ViolationJson>,
     /// What was looked at.
     pub checked: CheckedJson,

@@ -147,7 +147,7 @@ pub enum ViewStatusJson {
 #[derive(Clone, Debug, Serialize, Deserialize, ToSchema)]
 pub struct SkipReason {
     /// `no_ik`, `joint_limit`, `self_collision`, `table_collision`, `object_collision`, `obstacle_collision`
-    /// or `no_path`.
+    /// `no_path` or `work_limit`.
     pub code: String,
     /// For people.
     pub message: String,

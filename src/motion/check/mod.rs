@@ -5,7 +5,9 @@
 //! finite differences instead of formulas. It needs no more than what a plan's
 //! JSON holds, since a controller may have changed the trajectory.
 
+mod findings;
 mod levers;
+mod pairs;
 mod passage;
 mod solids;
 mod time_law;
@@ -15,13 +17,17 @@ mod violation;
 use super::cell::Cell;
 use super::plan::{MotionPlan, TrajectoryPoint, ViewOutcome};
 use super::request::{MotionRequest, Roll, Timing};
+use super::work::Stop;
 use crate::geometry::Pose;
+use findings::Findings;
 use passage::Passage;
 pub use passage::UNDERCUT_BOUND_M;
+#[cfg(test)]
+pub(super) use passage::sampled_excess_m;
 pub use violation::Violation;
 
 /// Most violations listed of one code: a hundred of a kind would hide the others.
-const MOST_OF_A_KIND: usize = 10;
+pub const MOST_OF_A_KIND: usize = 10;
 
 /// A view as a motion claims to take it.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +56,8 @@ pub struct Claim<'a> {
     pub order: &'a [usize],
     /// The motion.
     pub trajectory: &'a [TrajectoryPoint],
+    /// Ends the check, which then is no verdict; `None` where nobody may.
+    pub stop: Option<&'a Stop>,
 }
 
 /// The two parts that come nearest to each other, and when.
@@ -103,19 +111,13 @@ pub struct Verdict {
 /// far joints can carry a part, and the time between is halved until that decides. Until the first
 /// view a margin may be undercut by as much as the start state undercuts it.
 pub fn check_claim(claim: &Claim) -> Verdict {
-    let mut verdict = Verdict::default();
-    let well_formed = time_law::judge(claim, &mut verdict);
-    views::judge(claim, well_formed, &mut verdict);
+    let mut findings = Findings::default();
+    let well_formed = time_law::judge(claim, &mut findings);
+    views::judge(claim, well_formed, &mut findings);
     if well_formed {
-        Passage::new(claim.cell).judge(claim.trajectory, &mut verdict);
+        Passage::new(claim.cell).judge(claim.trajectory, claim.stop, &mut findings);
     }
-    let mut listed = std::collections::BTreeMap::new();
-    verdict.violations.retain(|violation| {
-        let count = listed.entry(violation.code()).or_insert(0usize);
-        *count += 1;
-        *count <= MOST_OF_A_KIND
-    });
-    verdict
+    findings.verdict
 }
 
 /// Everything that is wrong with `plan` as an answer to `request`; see [`check_claim`].
@@ -137,6 +139,7 @@ pub fn check(request: &MotionRequest, plan: &MotionPlan) -> Vec<Violation> {
         views: &views,
         order: &plan.order,
         trajectory: &plan.trajectory,
+        stop: None,
     };
     check_claim(&claim).violations
 }

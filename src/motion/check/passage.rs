@@ -1,54 +1,35 @@
 //! Whether a motion passes without coming too near to anything, every distance from parry.
 
-use parry3d_f64::math::{Pose3, Vec3};
-use parry3d_f64::shape::{HalfSpace, SharedShape};
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-
-use super::levers::Lengths;
-use super::solids::{Solid, distance, distance_at_least, object_solid, pose3, solid};
-use super::{Nearest, Verdict, Violation};
-use crate::geometry::Pose;
+use super::findings::Findings;
+use super::pairs::{Second, Solids, link_poses};
+use super::solids::{distance, distance_at_least};
+use super::{Nearest, Violation};
 use crate::motion::cell::Cell;
 use crate::motion::plan::TrajectoryPoint;
+use crate::motion::work::Stop;
 
 /// By how much a margin may be undercut, metres: the planner's resolution and GJK's.
 pub const UNDERCUT_BOUND_M: f64 = 1e-3;
-/// Random states that tell which parts of the arm always touch: apart in at most so many of them.
-const TOUCH_SAMPLES: (usize, usize) = (300, 9);
-/// First link that has to keep away from the table, from the object, from keep-out regions: the
-/// base stands on the table and may stand in a region, the link on it only turns there.
-const FROM_LINK: (usize, usize, usize) = (2, 0, 1);
 /// Beyond this, metres, distances are only told to be so large.
 const FAR_M: f64 = 0.5;
 /// Halvings of the time between two points before the rest counts as not proven.
 const MOST_HALVINGS: u32 = 16;
-/// States looked at for a point of the trajectory, and for all of it besides, at most.
-const MOST_STATES: (usize, usize) = (60, 100_000);
+/// Travel after which it is counted from 0 again, metres.
+const REBASE_M: f64 = 1e3;
+/// Most work of a check, some five seconds of one core, and what its steps take of it: bounding
+/// the motion of a group, looking at two balls, placing the links, a distance that is positive and
+/// one that is not.
+const MOST_WORK: u64 = 1_000_000_000;
+const GROUP: u64 = 2;
+const BALLS: u64 = 4;
+const PLACES: u64 = 100;
+const DISTANCE: u64 = 300;
+const DEPTH: u64 = 3_000;
 
-/// Two solids that must stay apart.
-struct Pair {
-    /// Index into `moving`.
-    first: usize,
-    second: Second,
-    margin_m: f64,
-    /// Metres of relative motion for a radian of each joint, at most.
-    levers_m: Vec<f64>,
-}
-
-#[derive(Clone, Copy)]
-enum Second {
-    Moving(usize),
-    Fixed(usize),
-}
-
-/// The solids of a cell and the pairs that must stay apart.
+/// The solids of a cell, to judge motions among them.
 pub(super) struct Passage<'a> {
     cell: &'a Cell,
-    moving: Vec<Solid>,
-    /// Each with the first link that has to keep away from it.
-    fixed: Vec<(Solid, usize)>,
-    pairs: Vec<Pair>,
+    solids: Solids,
 }
 
 /// A stretch of time between two points: its middle and half its length, as shares of it.
@@ -64,124 +45,58 @@ struct Judging {
     /// Margins, or less while the start state excuses it.
     wanted_m: Vec<f64>,
     reported: Vec<bool>,
-    states_left: usize,
+    /// How far each group's bodies may have moved against each other since the start, metres.
+    travelled_m: Vec<f64>,
+    /// Until it has travelled so far a pair need not be looked at: from its last distance.
+    clear_until_m: Vec<f64>,
+    /// The least of these in each group.
+    due_m: Vec<f64>,
+    work_left: u64,
+}
+
+impl Judging {
+    /// Counts a group's travel from 0 again, before it is too large a number to be added to.
+    fn rebase(&mut self, group: usize, pairs: &[usize]) {
+        let travelled_m = std::mem::take(&mut self.travelled_m[group]);
+        self.due_m[group] -= travelled_m;
+        for pair in pairs {
+            self.clear_until_m[*pair] -= travelled_m;
+        }
+    }
+
+    fn spend(&mut self, work: u64) {
+        self.work_left = self.work_left.saturating_sub(work);
+    }
 }
 
 impl<'a> Passage<'a> {
     pub fn new(cell: &'a Cell) -> Self {
-        let kinematics = cell.robot.kinematics.as_ref();
-        let dof = kinematics.dof();
-        let mut moving = Vec::new();
-        for (link, parts) in cell.robot.links.iter().enumerate() {
-            moving.extend(parts.shapes.iter().map(|s| solid(&parts.name, link, &Pose::identity(), s)));
-        }
-        let zero = vec![0.0; dof];
-        let base_from_last = kinematics.link_poses(&zero).last().copied().unwrap_or_default();
-        let last_from_flange = base_from_last.inverse() * kinematics.forward(&zero);
-        let last_from_camera = last_from_flange * cell.flange_from_camera;
-        moving.extend(cell.camera_body.iter().map(|s| solid(CAMERA, dof, &last_from_camera, s)));
-        moving.extend(cell.tool.iter().map(|s| solid(TOOL, dof, &last_from_flange, s)));
-        let identity = Pose::identity();
-        let regions = cell.keep_out.iter();
-        let mut fixed: Vec<(Solid, usize)> =
-            regions.map(|k| (solid(&k.name, 0, &identity, &k.shape_in_base), FROM_LINK.2)).collect();
-        fixed.extend(cell.object.iter().map(|object| (object_solid(object), FROM_LINK.1)));
-        if let Some(z) = cell.table_z_m {
-            let below = SharedShape::new(HalfSpace::new(Vec3::new(0.0, 0.0, 1.0)));
-            fixed.push((Solid::new("table", 0, Pose3::translation(0.0, 0.0, z), below), FROM_LINK.0));
-        }
-        let mut passage = Self { cell, moving, fixed, pairs: Vec::new() };
-        passage.pairs = passage.pairs(&Lengths::new(kinematics));
-        passage
-    }
-
-    fn pairs(&self, lengths: &Lengths) -> Vec<Pair> {
-        let levers = |solid: &Solid, still: usize| {
-            let (center, radius) = solid.ball_in_link();
-            lengths.levers(solid.link, still, center, radius)
-        };
-        let mut pairs = Vec::new();
-        for (first, second) in self.pairs_that_can_part() {
-            let (Some(a), Some(b)) = (self.moving.get(first), self.moving.get(second)) else { continue };
-            let levers_m = levers(b, a.link);
-            let margin_m = self.cell.self_margin_m;
-            pairs.push(Pair { first, second: Second::Moving(second), margin_m, levers_m });
-        }
-        for (first, a) in self.moving.iter().enumerate() {
-            let near = self.fixed.iter().enumerate().filter(|(_, (_, from_link))| a.link >= *from_link);
-            pairs.extend(near.map(|(i, _)| Pair {
-                first,
-                second: Second::Fixed(i),
-                margin_m: self.cell.margin_m,
-                levers_m: levers(a, 0),
-            }));
-        }
-        pairs
-    }
-
-    /// Pairs of parts of the arm, the one on the lower link first.
-    fn pairs_that_can_part(&self) -> Vec<(usize, usize)> {
-        let mut candidates = Vec::new();
-        for (i, a) in self.moving.iter().enumerate() {
-            for (k, b) in self.moving.iter().enumerate().skip(i + 1) {
-                let gap = b.link.abs_diff(a.link);
-                if gap >= 2 || (gap == 1 && (b.name == CAMERA || b.name == TOOL)) {
-                    candidates.push((i, k));
-                }
-            }
-        }
-        let mut rng = ChaCha8Rng::seed_from_u64(77);
-        let (samples, seldom) = TOUCH_SAMPLES;
-        let mut parted = vec![0; candidates.len()];
-        for _ in 0..samples {
-            let joints = self.cell.robot.joints.iter();
-            let q: Vec<f64> =
-                joints.map(|j| j.lower_rad + rng.random::<f64>() * (j.upper_rad - j.lower_rad)).collect();
-            let poses = self.link_poses(&q);
-            for (seen, (i, k)) in parted.iter_mut().zip(&candidates) {
-                if let (true, Some(a), Some(b)) = (*seen <= seldom, self.moving.get(*i), self.moving.get(*k))
-                {
-                    let apart = distance_at_least(a, b, &poses) > 0.0 || distance(a, b, &poses) > 0.0;
-                    *seen += usize::from(apart);
-                }
-            }
-        }
-        candidates.into_iter().zip(parted).filter(|(_, p)| *p > seldom).map(|(pair, _)| pair).collect()
-    }
-
-    fn link_poses(&self, q: &[f64]) -> Vec<Pose3> {
-        self.cell.robot.kinematics.link_poses(q).iter().map(pose3).collect()
-    }
-
-    fn solids(&self, pair: &Pair) -> Option<(&Solid, &Solid)> {
-        let second = match pair.second {
-            Second::Moving(i) => self.moving.get(i)?,
-            Second::Fixed(i) => &self.fixed.get(i)?.0,
-        };
-        Some((self.moving.get(pair.first)?, second))
+        Self { cell, solids: Solids::new(cell) }
     }
 
     /// Looks at the whole motion and reports each pair at the first moment it is too near.
-    pub fn judge(&self, trajectory: &[TrajectoryPoint], verdict: &mut Verdict) {
+    pub fn judge(&self, trajectory: &[TrajectoryPoint], stop: Option<&Stop>, findings: &mut Findings) {
         let Some(first) = trajectory.first() else { return };
-        let poses = self.link_poses(&first.positions_rad);
-        let start_m: Vec<f64> =
-            self.pairs.iter().map(|p| self.solids(p).map_or(0.0, |(a, b)| distance(a, b, &poses))).collect();
-        let margins = || self.pairs.iter().map(|p| p.margin_m);
-        let excused: Vec<f64> = margins().zip(&start_m).map(|(margin, start)| margin.min(*start)).collect();
-        let mut judging = Judging {
-            wanted_m: if first.view.is_none() { excused } else { margins().collect() },
-            reported: vec![false; self.pairs.len()],
-            states_left: MOST_STATES.0.saturating_mul(trajectory.len()) + MOST_STATES.1,
-        };
+        let Solids { pairs, groups, .. } = &self.solids;
+        let poses = link_poses(self.cell, &first.positions_rad);
+        let start_m = |pair| self.solids.of(pair).map_or(0.0, |(a, b)| distance(a, b, &poses));
+        let margins = || pairs.iter().map(|pair| pair.margin_m);
         // A start that overlaps is no excuse.
-        judging.wanted_m.iter_mut().for_each(|m| *m = m.max(0.0));
-        self.judge_between(first, first, &mut judging, verdict);
+        let excused = || pairs.iter().map(|pair| pair.margin_m.min(start_m(pair)).max(0.0)).collect();
+        let mut judging = Judging {
+            wanted_m: if first.view.is_none() { excused() } else { margins().collect() },
+            reported: vec![false; pairs.len()],
+            travelled_m: vec![0.0; groups.len()],
+            clear_until_m: vec![f64::NEG_INFINITY; pairs.len()],
+            due_m: vec![f64::NEG_INFINITY; groups.len()],
+            work_left: MOST_WORK,
+        };
+        self.judge_between(first, first, &mut judging, findings);
         for pair in trajectory.windows(2) {
             let [from, to] = pair else { continue };
-            self.judge_between(from, to, &mut judging, verdict);
-            if judging.states_left == 0 {
-                verdict.violations.push(Violation::NotProven { time_s: from.time_from_start_s });
+            self.judge_between(from, to, &mut judging, findings);
+            if judging.work_left == 0 || stop.is_some_and(Stop::is_asked) {
+                findings.push(Violation::NotProven { time_s: from.time_from_start_s });
                 return;
             }
             if to.view.is_some() {
@@ -195,46 +110,97 @@ impl<'a> Passage<'a> {
         from: &TrajectoryPoint,
         to: &TrajectoryPoint,
         judging: &mut Judging,
-        verdict: &mut Verdict,
+        findings: &mut Findings,
+    ) {
+        let reach_rad = largest_moves(from, to);
+        let groups = &self.solids.groups;
+        judging.spend(GROUP * groups.len() as u64);
+        // What each group moves on the way, and the pairs that may come too near on it.
+        let moved_m: Vec<f64> = groups
+            .iter()
+            .map(|group| group.levers_m.iter().zip(&reach_rad).map(|(lever, reach)| lever * reach).sum())
+            .collect();
+        if !moved_m.iter().all(|moved| moved.is_finite()) {
+            judging.work_left = 0;
+            return;
+        }
+        let mut due: Vec<usize> = Vec::new();
+        let mut due_groups: Vec<usize> = Vec::new();
+        for (index, group) in groups.iter().enumerate() {
+            let end_m = judging.travelled_m[index] + moved_m[index];
+            if judging.due_m[index] < end_m {
+                due_groups.push(index);
+                due.extend(group.pairs.iter().filter(|pair| judging.clear_until_m[**pair] < end_m));
+                judging.spend(group.pairs.len() as u64);
+            }
+        }
+        if !due.is_empty() {
+            self.look(from, to, due, &moved_m, judging, findings);
+        }
+        for group in due_groups {
+            let until = groups[group].pairs.iter().map(|pair| judging.clear_until_m[*pair]);
+            judging.due_m[group] = until.fold(f64::INFINITY, f64::min);
+        }
+        for (index, moved) in moved_m.iter().enumerate() {
+            judging.travelled_m[index] += moved;
+            if judging.travelled_m[index] > REBASE_M {
+                judging.rebase(index, &groups[index].pairs);
+            }
+        }
+    }
+
+    /// Looks at `pairs` between two points: at the middle first, then at halves where it must.
+    fn look(
+        &self,
+        from: &TrajectoryPoint,
+        to: &TrajectoryPoint,
+        pairs: Vec<usize>,
+        moved_m: &[f64],
+        judging: &mut Judging,
+        findings: &mut Findings,
     ) {
         let dt = to.time_from_start_s - from.time_from_start_s;
-        let reach_rad = largest_moves(from, to);
-        let mut open =
-            vec![Stretch { middle: 0.5, half: 0.5, halvings: 0, pairs: (0..self.pairs.len()).collect() }];
+        let mut open = vec![Stretch { middle: 0.5, half: 0.5, halvings: 0, pairs }];
         while let Some(stretch) = open.pop() {
-            if judging.states_left == 0 {
+            if judging.work_left == 0 {
                 return;
             }
-            judging.states_left -= 1;
-            verdict.looked.states += 1;
+            judging.spend(PLACES + BALLS * stretch.pairs.len() as u64);
+            findings.verdict.looked.states += 1;
             let time_s = from.time_from_start_s + stretch.middle * dt;
-            let poses = self.link_poses(&between(from, to, stretch.middle));
+            let poses = link_poses(self.cell, &between(from, to, stretch.middle));
             let mut undecided = Vec::new();
             for index in stretch.pairs {
-                let Some(pair) = self.pairs.get(index) else { continue };
-                let Some((a, b)) = self.solids(pair) else { continue };
-                let travel_m: f64 =
-                    pair.levers_m.iter().zip(&reach_rad).map(|(l, r)| l * r * stretch.half).sum();
-                let least_m =
-                    judging.wanted_m.get(index).copied().unwrap_or(pair.margin_m) - UNDERCUT_BOUND_M;
-                let enough_m = least_m + travel_m;
+                let Some(pair) = self.solids.pairs.get(index) else { continue };
+                let Some((a, b)) = self.solids.of(pair) else { continue };
+                let least_m = judging.wanted_m[index] - UNDERCUT_BOUND_M;
+                let enough_m = least_m + moved_m[pair.group] * stretch.half;
                 let looked = match pair.second {
-                    Second::Moving(_) => &mut verdict.looked.nearest_self,
-                    Second::Fixed(_) => &mut verdict.looked.nearest,
+                    Second::Moving(_) => &mut findings.verdict.looked.nearest_self,
+                    Second::Fixed(_) => &mut findings.verdict.looked.nearest,
                 };
                 let nearest_m = looked.as_ref().map_or(f64::INFINITY, |n| n.distance_m);
+                let at_m = judging.travelled_m[pair.group] + moved_m[pair.group] * stretch.middle;
+                // Nearer than this the pair is of interest: it is near its margin (the full one, also
+                // where the start excuses it) or nearer than anything seen.
+                let interest_m = |nearest_m: f64| nearest_m.min(FAR_M).max(pair.margin_m);
                 let at_least_m = distance_at_least(a, b, &poses);
+                let clear_until_m = &mut judging.clear_until_m[index];
                 if at_least_m > enough_m.max(nearest_m.min(FAR_M)) {
+                    *clear_until_m = clear_until_m.max(at_m + at_least_m - interest_m(nearest_m));
                     continue;
                 }
                 let distance_m = distance(a, b, &poses);
+                judging.work_left =
+                    judging.work_left.saturating_sub(if distance_m > 0.0 { DISTANCE } else { DEPTH });
                 if distance_m < nearest_m {
                     let (first, second) = (a.name.clone(), b.name.clone());
                     *looked = Some(Nearest { distance_m, first, second, time_s });
                 }
+                *clear_until_m = clear_until_m.max(at_m + distance_m - interest_m(nearest_m.min(distance_m)));
                 if distance_m < least_m {
-                    if judging.reported.get_mut(index).is_some_and(|seen| !std::mem::replace(seen, true)) {
-                        verdict.violations.push(Violation::TooNear {
+                    if !std::mem::replace(&mut judging.reported[index], true) {
+                        findings.push(Violation::TooNear {
                             time_s,
                             first: a.name.clone(),
                             second: b.name.clone(),
@@ -250,7 +216,7 @@ impl<'a> Passage<'a> {
                 continue;
             }
             if stretch.halvings >= MOST_HALVINGS {
-                judging.states_left = 0;
+                judging.work_left = 0;
                 return;
             }
             let (half, halvings) = (0.5 * stretch.half, stretch.halvings + 1);
@@ -259,10 +225,6 @@ impl<'a> Passage<'a> {
         }
     }
 }
-
-/// Names of what is mounted on the last link.
-const CAMERA: &str = "camera";
-const TOOL: &str = "tool";
 
 /// Cubic Hermite interpolation, as a controller would do it.
 fn between(from: &TrajectoryPoint, to: &TrajectoryPoint, share: f64) -> Vec<f64> {
@@ -288,4 +250,29 @@ fn largest_moves(from: &TrajectoryPoint, to: &TrajectoryPoint) -> Vec<f64> {
             m0.abs().max(m1.abs()).max((3.0 * moved - m0 - m1).abs())
         })
         .collect()
+}
+
+/// By how much the nearest pair undercuts its margin at the points and `between_points` states between
+/// two of them, metres; negative where none does.
+#[cfg(test)]
+pub(in crate::motion) fn sampled_excess_m(
+    cell: &Cell,
+    trajectory: &[TrajectoryPoint],
+    between_points: usize,
+) -> f64 {
+    let solids = Solids::new(cell);
+    let mut excess_m = f64::NEG_INFINITY;
+    for points in trajectory.windows(2) {
+        for i in 0..=between_points {
+            let share = i as f64 / between_points as f64;
+            let poses = link_poses(cell, &between(&points[0], &points[1], share));
+            for pair in &solids.pairs {
+                let (a, b) = solids.of(pair).unwrap();
+                if distance_at_least(a, b, &poses) < pair.margin_m {
+                    excess_m = excess_m.max(pair.margin_m - distance(a, b, &poses));
+                }
+            }
+        }
+    }
+    excess_m
 }

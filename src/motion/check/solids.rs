@@ -25,6 +25,13 @@ pub(super) fn distance_at_least(a: &Solid, b: &Solid, poses: &[Pose3]) -> f64 {
     (pa.transform_point(a.around.0) - pb.transform_point(b.around.0)).length() - a.around.1 - b.around.1
 }
 
+/// Whether two placed solids do not touch.
+pub(super) fn are_apart(a: &Solid, b: &Solid, poses: &[Pose3]) -> bool {
+    distance_at_least(a, b, poses) > 0.0
+        || query::distance(&a.place(poses), a.shape.as_ref(), &b.place(poses), b.shape.as_ref())
+            .is_ok_and(|found| found.distance > 0.0)
+}
+
 /// Signed distance of two placed solids, metres.
 pub(super) fn distance(a: &Solid, b: &Solid, poses: &[Pose3]) -> f64 {
     let (pa, pb) = (a.place(poses), b.place(poses));

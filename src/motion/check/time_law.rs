@@ -1,6 +1,7 @@
 //! Limits and the time law, by finite differences.
 
-use super::{Claim, Verdict, Violation};
+use super::findings::Findings;
+use super::{Claim, Violation};
 use crate::motion::request::Timing;
 use crate::robot::Joint;
 
@@ -19,14 +20,14 @@ struct Limits<'a> {
 }
 
 /// Judges points and their differences; whether all points are well formed.
-pub(super) fn judge(claim: &Claim, verdict: &mut Verdict) -> bool {
+pub(super) fn judge(claim: &Claim, findings: &mut Findings) -> bool {
     let joints = &claim.cell.robot.joints;
     let mut well_formed = true;
     for (i, point) in claim.trajectory.iter().enumerate() {
         let vectors = [&point.positions_rad, &point.velocities_rad_per_s, &point.accelerations_rad_per_s2];
         let finite = vectors.iter().all(|v| v.len() == joints.len() && v.iter().all(|x| x.is_finite()));
         if !finite || !point.time_from_start_s.is_finite() {
-            verdict.violations.push(Violation::Malformed { point: i });
+            findings.push(Violation::Malformed { point: i });
             well_formed = false;
         }
     }
@@ -41,27 +42,27 @@ pub(super) fn judge(claim: &Claim, verdict: &mut Verdict) -> bool {
             acceleration: joint.max_acceleration_rad_per_s2 * scale * scale,
             jerk: claim.timing.jerk_limited.then(|| Timing::jerk_limit_rad_per_s3(joint) * scale.powi(3)),
         };
-        judge_points(claim, j, &limits, verdict);
-        judge_differences(claim, j, &limits, verdict);
+        judge_points(claim, j, &limits, findings);
+        judge_differences(claim, j, &limits, findings);
     }
     for (i, pair) in claim.trajectory.windows(2).enumerate() {
         let [before, after] = pair else { continue };
         if !(after.time_from_start_s - before.time_from_start_s >= LEAST_STEP_S) {
             let time_s = after.time_from_start_s;
-            verdict.violations.push(Violation::Time { point: i + 1, time_s });
+            findings.push(Violation::Time { point: i + 1, time_s });
         }
     }
     true
 }
 
-fn judge_points(claim: &Claim, j: usize, limits: &Limits, verdict: &mut Verdict) {
+fn judge_points(claim: &Claim, j: usize, limits: &Limits, findings: &mut Findings) {
     for (i, point) in claim.trajectory.iter().enumerate() {
         let (q, v, a) =
             (point.positions_rad[j], point.velocities_rad_per_s[j], point.accelerations_rad_per_s2[j]);
         let mut limit = |quantity, value: f64, limit: f64, over: bool| {
             if over {
                 let joint = limits.joint.name.clone();
-                verdict.violations.push(Violation::Limit { point: i, quantity, joint, value, limit });
+                findings.push(Violation::Limit { point: i, quantity, joint, value, limit });
             }
         };
         let beyond = limits.joint.violation_rad(q) > 1e-9;
@@ -69,11 +70,12 @@ fn judge_points(claim: &Claim, j: usize, limits: &Limits, verdict: &mut Verdict)
         limit("position", q, bound, beyond);
         limit("speed", v.abs(), limits.speed, is_over(v.abs(), limits.speed, 1e-9));
         limit("acceleration", a.abs(), limits.acceleration, is_over(a.abs(), limits.acceleration, 1e-9));
-        verdict.looked.speed_share = verdict.looked.speed_share.max(v.abs() / limits.speed);
+        let looked = &mut findings.verdict.looked;
+        looked.speed_share = looked.speed_share.max(v.abs() / limits.speed);
     }
 }
 
-fn judge_differences(claim: &Claim, j: usize, limits: &Limits, verdict: &mut Verdict) {
+fn judge_differences(claim: &Claim, j: usize, limits: &Limits, findings: &mut Findings) {
     for (i, pair) in claim.trajectory.windows(2).enumerate() {
         let [before, after] = pair else { continue };
         let dt = after.time_from_start_s - before.time_from_start_s;
@@ -88,7 +90,7 @@ fn judge_differences(claim: &Claim, j: usize, limits: &Limits, verdict: &mut Ver
         let mut judge = |quantity, value: f64, limit: f64| {
             if is_over(value, limit, 1e-9 / dt) {
                 let joint = limits.joint.name.clone();
-                verdict.violations.push(Violation::Limit { point: i + 1, quantity, joint, value, limit });
+                findings.push(Violation::Limit { point: i + 1, quantity, joint, value, limit });
             }
         };
         judge("mean speed", speed, limits.speed);
@@ -98,16 +100,17 @@ fn judge_differences(claim: &Claim, j: usize, limits: &Limits, verdict: &mut Ver
             // Where accelerations are continuous, speeds follow from them by the trapezoidal rule.
             let unexplained = ((v1 - v0) - 0.5 * dt * (a0 + a1)).abs();
             judge("jerk", 4.0 * unexplained / (dt * dt), limit);
-            verdict.looked.jerk_share = verdict.looked.jerk_share.max(jerk / limit);
+            let looked = &mut findings.verdict.looked;
+            looked.jerk_share = looked.jerk_share.max(jerk / limit);
         }
-        let looked = &mut verdict.looked;
+        let looked = &mut findings.verdict.looked;
         looked.speed_share = looked.speed_share.max(speed / limits.speed);
         looked.acceleration_share = looked.acceleration_share.max(acceleration / limits.acceleration);
         // With acceleration within its limit, the trapezoidal rule is this good.
         let jump_rad = (moved - 0.5 * dt * (v0 + v1)).abs();
         if jump_rad > 0.25 * limits.acceleration * dt * dt * (1.0 + ROUNDING) + 1e-9 {
             let joint = limits.joint.name.clone();
-            verdict.violations.push(Violation::Jump { point: i + 1, joint, jump_rad });
+            findings.push(Violation::Jump { point: i + 1, joint, jump_rad });
         }
     }
 }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::states::StateTable;
 use crate::motion::scene::Scene;
 use crate::motion::sweep::Sweeper;
+use crate::motion::work::cost;
 
 /// What a colliding leg costs: so many times its time, and seconds on top, for the way around.
 const DETOUR_GUESS: (f32, f32) = (1.5, 0.6);
@@ -12,7 +13,7 @@ const DETOUR_GUESS: (f32, f32) = (1.5, 0.6);
 /// Extra seconds of legs whose straight move collides.
 pub(super) struct Collisions<'a> {
     scene: &'a Scene<'a>,
-    sweeper: Sweeper,
+    sweeper: &'a mut Sweeper,
     extra_s: HashMap<(usize, usize), f32>,
     /// Margins of legs from here are less by so many metres (the start state's).
     relief: (usize, f64),
@@ -20,8 +21,14 @@ pub(super) struct Collisions<'a> {
 
 impl<'a> Collisions<'a> {
     /// Nothing looked at. Legs from state `start` may undercut margins by `relief_m`.
-    pub fn new(scene: &'a Scene<'a>, start: usize, relief_m: f64) -> Self {
-        Self { scene, sweeper: Sweeper::default(), extra_s: HashMap::new(), relief: (start, relief_m) }
+    pub fn new(scene: &'a Scene<'a>, sweeper: &'a mut Sweeper, start: usize, relief_m: f64) -> Self {
+        Self { scene, sweeper, extra_s: HashMap::new(), relief: (start, relief_m) }
+    }
+
+    /// Counts leg times; whether the work is over.
+    pub fn spend(&mut self, leg_times: usize) -> bool {
+        self.sweeper.work().spend(cost::LEG * leg_times as u64);
+        self.sweeper.work().is_over()
     }
 
     /// Extra seconds of `tour`, as far as its legs have been looked at.

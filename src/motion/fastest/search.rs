@@ -17,11 +17,23 @@ use super::states::StateTable;
 
 /// Work of a search.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Effort {
+pub(crate) struct Effort {
     /// Leg times that may be computed in all, and other work in its terms.
-    pub leg_times: usize,
+    pub(super) leg_times: usize,
+    /// Whether legs are S-curves.
+    pub(super) jerk_limited: bool,
     /// Seed of all draws.
-    pub seed: u64,
+    pub(super) seed: u64,
+}
+
+/// Leg times that one search may compute.
+const LEG_TIMES: usize = 8_000_000;
+
+impl Effort {
+    /// The usual one.
+    pub fn new(jerk_limited: bool, seed: u64) -> Self {
+        Self { leg_times: LEG_TIMES, jerk_limited, seed }
+    }
 }
 
 /// Most views taken out together.
@@ -43,6 +55,8 @@ pub(super) fn search(
     let mut rng = ChaCha8Rng::seed_from_u64(effort.seed);
     let mut inserter = Inserter::default();
     let mut best = first;
+    let states = table.range(table.clusters() - 1).end;
+    collisions.spend(states * states / best.len().max(1));
     improve(table, &mut best);
     let mut best_s = time_s(table, &best) + collisions.extra_s(table, &best);
     let (mut current, mut current_s) = (best.clone(), best_s);
@@ -51,10 +65,14 @@ pub(super) fn search(
     if views < 2 {
         return best;
     }
-    let states = table.range(table.clusters() - 1).end;
     let mut removed = Vec::new();
     let mut spent = 0;
+    let mut counted = 0;
     while spent < effort.leg_times {
+        if collisions.spend(spent - counted) {
+            break;
+        }
+        counted = spent;
         let progress = spent as f32 / effort.leg_times as f32;
         let temperature = leg_s * TEMPERATURES.0 * (TEMPERATURES.1 / TEMPERATURES.0).powf(progress);
         let mut tour = current.clone();

@@ -5,6 +5,8 @@ use std::ops::Range;
 
 use crate::motion::candidates::Candidate;
 use crate::motion::joints::{Joints, MAX_JOINTS};
+use crate::motion::request::Timing;
+use crate::motion::s_curve::rest_to_rest_s;
 use crate::robot::Joint;
 
 /// Share of the summed joint times that is added to a leg's time: of legs that
@@ -22,7 +24,8 @@ pub(super) struct StateTable {
     clock: LegClock,
 }
 
-/// Times of straight legs from rest to rest within speed and acceleration limits.
+/// Times of straight legs from rest to rest within speed and acceleration limits, and jerk limits
+/// where the motion will have them.
 ///
 /// Joints that can turn farther than all the way round are taken modulo a turn:
 /// which whole turns are used is settled afterwards, by the choice of states. No
@@ -34,14 +37,17 @@ pub(super) struct LegClock {
     seconds_per_rad: State,
     /// Reciprocal accelerations, s2/rad.
     inverse_acceleration: State,
+    /// Reciprocal jerks, s3/rad; `None` where jerk is not bounded.
+    inverse_jerk: Option<State>,
 }
 
 impl LegClock {
-    pub fn new(joints: &[Joint]) -> Self {
+    pub fn new(joints: &[Joint], jerk_limited: bool) -> Self {
         let mut clock = Self {
             period: [f32::INFINITY; MAX_JOINTS],
             seconds_per_rad: [0.0; MAX_JOINTS],
             inverse_acceleration: [0.0; MAX_JOINTS],
+            inverse_jerk: jerk_limited.then_some([0.0; MAX_JOINTS]),
         };
         for (j, joint) in joints.iter().take(MAX_JOINTS).enumerate() {
             if joint.upper_rad - joint.lower_rad > std::f64::consts::TAU + 1e-6 {
@@ -49,6 +55,9 @@ impl LegClock {
             }
             clock.seconds_per_rad[j] = (1.0 / joint.max_speed_rad_per_s) as f32;
             clock.inverse_acceleration[j] = (1.0 / joint.max_acceleration_rad_per_s2) as f32;
+            if let Some(inverse) = &mut clock.inverse_jerk {
+                inverse[j] = (1.0 / Timing::jerk_limit_rad_per_s3(joint)) as f32;
+            }
         }
         clock
     }
@@ -65,7 +74,33 @@ impl LegClock {
     #[inline(always)]
     pub fn time(&self, a: &State, b: &State) -> f32 {
         let (speed_bound, acceleration_bound, sum) = self.bounds(a, b);
-        leg_time(speed_bound, acceleration_bound) + TRAVEL_SHARE * sum
+        self.leg_time(speed_bound, acceleration_bound, a, b) + TRAVEL_SHARE * sum
+    }
+
+    /// Seconds of the leg with these bounds.
+    #[inline(always)]
+    fn leg_time(&self, speed_bound: f32, acceleration_bound: f32, a: &State, b: &State) -> f32 {
+        match &self.inverse_jerk {
+            None => leg_time(speed_bound, acceleration_bound),
+            Some(_) if speed_bound == 0.0 => 0.0,
+            Some(inverse) => {
+                let mut jerk_bound = 0.0f32;
+                for (j, inverse) in inverse.iter().enumerate() {
+                    let r = self.move_of(j, a, b) * inverse;
+                    jerk_bound = if r > jerk_bound { r } else { jerk_bound };
+                }
+                let [p, q, r] = [speed_bound, acceleration_bound, jerk_bound].map(f64::from);
+                rest_to_rest_s(p, q, r) as f32
+            }
+        }
+    }
+
+    /// By how much joint `j` moves, radians.
+    #[inline(always)]
+    fn move_of(&self, j: usize, a: &State, b: &State) -> f32 {
+        let straight = (a[j] - b[j]).abs();
+        let round = self.period[j] - straight;
+        if round < straight { round } else { straight }
     }
 
     /// Largest joint travel over speed and over acceleration limits, and the sum of the former.
@@ -73,9 +108,7 @@ impl LegClock {
     fn bounds(&self, a: &State, b: &State) -> (f32, f32, f32) {
         let (mut speed_bound, mut acceleration_bound, mut sum) = (0.0f32, 0.0f32, 0.0f32);
         for j in 0..MAX_JOINTS {
-            let straight = (a[j] - b[j]).abs();
-            let round = self.period[j] - straight;
-            let d = if round < straight { round } else { straight };
+            let d = self.move_of(j, a, b);
             let (p, q) = (d * self.seconds_per_rad[j], d * self.inverse_acceleration[j]);
             speed_bound = if p > speed_bound { p } else { speed_bound };
             acceleration_bound = if q > acceleration_bound { q } else { acceleration_bound };
@@ -93,12 +126,16 @@ fn leg_time(p: f32, q: f32) -> f32 {
 
 impl StateTable {
     /// A table of the clusters' states.
-    pub fn new<'a>(joints: &[Joint], clusters: impl Iterator<Item = &'a [Candidate]>) -> Self {
+    pub fn new<'a>(
+        joints: &[Joint],
+        jerk_limited: bool,
+        clusters: impl Iterator<Item = &'a [Candidate]>,
+    ) -> Self {
         let mut table = Self {
             states: Vec::new(),
             cluster_of: Vec::new(),
             ranges: Vec::new(),
-            clock: LegClock::new(joints),
+            clock: LegClock::new(joints, jerk_limited),
         };
         for (cluster, candidates) in clusters.enumerate() {
             let first = table.states.len();
@@ -136,9 +173,9 @@ impl StateTable {
         for from in &self.states[self.range(a)] {
             for to in &self.states[self.range(b)] {
                 let (p, q, _) = self.clock.bounds(from, to);
-                // A square root only where it may matter.
+                // A square root only where it may matter: bounded jerk makes no leg faster.
                 if q < 0.25 * fastest * fastest || fastest.is_infinite() {
-                    fastest = fastest.min(leg_time(p, q));
+                    fastest = fastest.min(self.clock.leg_time(p, q, from, to));
                 }
             }
         }
@@ -167,6 +204,8 @@ impl StateTable {
 mod tests {
     use super::*;
     use crate::motion::joints::{difference, joints_from};
+    use crate::motion::metric::Metric;
+    use crate::motion::s_curve::SCurve;
     use crate::motion::trapezoid::Trapezoid;
     use crate::robot::RobotModel;
     use proptest::prelude::*;
@@ -180,7 +219,8 @@ mod tests {
             let b: Vec<f64> = a.iter().zip(&step).map(|(a, d)| a + d).collect();
             let candidate = |q: &[f64]| [Candidate { joints: joints_from(q), roll_rad: 0.0 }];
             let (first, second) = (candidate(&a), candidate(&b));
-            let table = StateTable::new(&joints, [first.as_slice(), second.as_slice()].into_iter());
+            let clusters = || [first.as_slice(), second.as_slice()].into_iter();
+            let table = StateTable::new(&joints, false, clusters());
             let speed = joints_from(&joints.iter().map(|j| j.max_speed_rad_per_s).collect::<Vec<_>>());
             let acceleration = joints_from(&joints.iter().map(|j| j.max_acceleration_rad_per_s2).collect::<Vec<_>>());
             let (from, to) = table.leg(0, 1);
@@ -189,6 +229,13 @@ mod tests {
             let exact = Trapezoid::new(&step, &speed, &acceleration).duration_s() + f64::from(TRAVEL_SHARE) * sum;
             prop_assert!((f64::from(table.time(0, 1)) - exact).abs() < 1e-3);
             prop_assert!((table.time(0, 1) - table.time(1, 0)).abs() < 1e-6);
+            let jerk = joints_from(&joints.iter().map(Timing::jerk_limit_rad_per_s3).collect::<Vec<_>>());
+            let smooth = StateTable::new(&joints, true, clusters());
+            let exact = SCurve::new(&step, &speed, &acceleration, &jerk).duration_s() + f64::from(TRAVEL_SHARE) * sum;
+            prop_assert!((f64::from(smooth.time(0, 1)) - exact).abs() < 1e-3);
+            prop_assert!(smooth.fastest(0, 1) >= table.fastest(0, 1) * (1.0 - 1e-6));
+            let metric = Metric::time(&joints, true).cost(&from, &to);
+            prop_assert!((metric - exact).abs() < 1e-3);
         }
     }
 }

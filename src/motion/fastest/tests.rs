@@ -48,13 +48,22 @@ fn small_problems_are_solved_to_the_optimum_that_brute_force_finds() {
     for seed in 0..6 {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let layers = random_layers(6, &mut rng);
-        let table =
-            StateTable::new(&cell.robot.joints, layers.iter().map(|layer| layer.candidates.as_slice()));
+        let table = StateTable::new(
+            &cell.robot.joints,
+            seed % 2 == 1,
+            layers.iter().map(|layer| layer.candidates.as_slice()),
+        );
         let first: Vec<usize> = (0..table.clusters()).map(|c| table.range(c).start).collect();
         // Colliding legs would cost extra; without a table and an object there are next to none,
         // and brute force does not know of them.
-        let mut collisions = Collisions::new(&scene, usize::MAX, 10.0);
-        let found = search(&table, &mut collisions, first, Effort { leg_times: 400_000, seed });
+        let mut sweeper = Sweeper::default();
+        let mut collisions = Collisions::new(&scene, &mut sweeper, usize::MAX, 10.0);
+        let found = search(
+            &table,
+            &mut collisions,
+            first,
+            Effort { leg_times: 400_000, ..Effort::new(seed % 2 == 1, seed) },
+        );
         let found_s = search::time_s(&table, &found) + collisions.known_extra_s(&found);
         let mut best_s = f32::INFINITY;
         for state in table.range(0) {

@@ -1,5 +1,7 @@
 //! Scenarios of the whole room.
 
 mod cells;
+mod checking;
+mod hard_cells;
 mod objective;
 mod scenarios;

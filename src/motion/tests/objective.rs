@@ -2,12 +2,22 @@ use super::cells::{as_order, by_camera_path, cell, views};
 use crate::motion::*;
 
 fn planned_for(objective: Objective, roll: Roll, start: Option<&[f64]>) -> (MotionPlan, Vec<Violation>) {
+    planned_by(objective, roll, start, false)
+}
+
+fn planned_by(
+    objective: Objective,
+    roll: Roll,
+    start: Option<&[f64]>,
+    jerk_limited: bool,
+) -> (MotionPlan, Vec<Violation>) {
     let cell = cell("ur5e", 0.45, 0.1);
     let views = views(&cell, 24, 0.3);
     let order = by_camera_path(&cell, &views);
     let mut request = MotionRequest::new(&cell, &views);
     (request.objective, request.roll, request.start) = (objective, roll, start);
     request.order = Order::By(as_order(&order));
+    request.timing.jerk_limited = jerk_limited;
     let plan = plan_motion(&request).unwrap();
     let violations = check(&request, &plan);
     (plan, violations)
@@ -28,6 +38,20 @@ fn a_plan_for_time_is_sound_faster_and_says_what_it_is_compared_with() {
         let least_s = compared.least_duration_s.unwrap();
         assert!(least_s < by_time.duration_s && least_s > 0.5 * by_time.duration_s, "{least_s} s");
         assert!(by_distance.compared.is_none());
+    }
+}
+
+#[test]
+fn with_bounded_jerk_the_bound_is_one_for_s_curves() {
+    for roll in [Roll::Fixed, Roll::FREE] {
+        let least_s = |plan: &MotionPlan| plan.compared.as_ref().unwrap().least_duration_s.unwrap();
+        let (hard, _) = planned_by(Objective::Time, roll, None, false);
+        let (smooth, violations) = planned_by(Objective::Time, roll, None, true);
+        assert_eq!(violations, vec![]);
+        assert!(smooth.duration_s <= smooth.compared.as_ref().unwrap().duration_s);
+        // No S-curve is as fast: the same bound would say less of it.
+        assert!(least_s(&smooth) > 1.03 * least_s(&hard), "{} {}", least_s(&smooth), least_s(&hard));
+        assert!(least_s(&smooth) < smooth.duration_s && least_s(&smooth) > 0.8 * smooth.duration_s);
     }
 }
 

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use rayon::prelude::*;
-
-use crate::geometry::direction_from_azimuth_elevation;
-use crate::motion::Reach;
+use crate::geometry::{Pose, direction_from_azimuth_elevation};
+use crate::plan::asks::Asks;
 use crate::views::ViewSpace;
+
+/// The code of cells that were not answered before the work ended.
+pub(super) const WORK_LIMIT: &str = "work_limit";
 
 /// The code of every cell's middle.
 pub(super) struct Grid {
@@ -19,7 +20,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    pub(super) fn ask(reach: &Reach, space: &ViewSpace, rows: usize, columns: usize) -> Grid {
+    pub(super) fn ask(asks: &mut Asks, space: &ViewSpace, rows: usize, columns: usize) -> Grid {
         let (low, high) = (space.band.min_elevation_rad, space.band.max_elevation_rad);
         let edge = |row: usize| low + (high - low) * row as f64 / rows as f64;
         let elevations_rad: Vec<f64> = (0..rows).map(|row| 0.5 * (edge(row) + edge(row + 1))).collect();
@@ -31,18 +32,15 @@ impl Grid {
             false => 1.0 / rows as f64,
         };
         let shares = (0..rows).map(share).collect();
-        let cells: Vec<Option<&'static str>> = (0..rows * columns)
-            .into_par_iter()
-            .map_init(
-                || reach.probe(),
-                |probe, cell| {
-                    let elevation_rad = elevations_rad.get(cell / columns).copied().unwrap_or(low);
-                    let azimuth_rad = TAU * (cell % columns) as f64 / columns as f64;
-                    let direction = direction_from_azimuth_elevation(azimuth_rad, elevation_rad);
-                    probe.reason(&space.pose(&direction, 0.0)).map(|reason| reason.code())
-                },
-            )
-            .collect();
+        let pose = |cell: usize| {
+            let elevation_rad = elevations_rad.get(cell / columns).copied().unwrap_or(low);
+            let azimuth_rad = TAU * (cell % columns) as f64 / columns as f64;
+            space.pose(&direction_from_azimuth_elevation(azimuth_rad, elevation_rad), 0.0)
+        };
+        let poses: Vec<Pose> = (0..rows * columns).map(pose).collect();
+        let reasons = asks.ask(&poses, |probe, pose| probe.reason(pose).map(|reason| reason.code()));
+        let cells: Vec<Option<&'static str>> =
+            reasons.into_iter().map(|reason| reason.unwrap_or(Some(WORK_LIMIT))).collect();
         let codes = cells.chunks(columns).map(<[_]>::to_vec).collect();
         Grid { elevations_rad, azimuths_rad, codes, shares }
     }

@@ -7,9 +7,10 @@ mod suggest;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use super::{PlanError, PlanRequest, Warning, cell, check};
+use super::asks::Asks;
+use super::{PlanError, PlanRequest, Warning, cell, check, work_bound};
 use crate::geometry::Point;
-use crate::motion::Reach;
+use crate::motion::{Allowance, MotionError, Reach, Stop};
 
 /// Rows and columns of the grid, when the request names none.
 const RESOLUTION: (usize, usize) = (17, 36);
@@ -17,6 +18,9 @@ const RESOLUTION: (usize, usize) = (17, 36);
 const RESOLUTION_NUMERIC: (usize, usize) = (6, 12);
 /// Most rows, columns and cells of the grid, and cells for arms of numeric kinematics.
 const MOST: (usize, usize, usize, usize) = (90, 360, 16_200, 648);
+
+/// Part of the work that may go into the grid; the rest is for places of the object.
+const GRID: f64 = 0.6;
 
 /// What an arm can reach of the band about an object.
 #[derive(Clone, Debug)]
@@ -65,6 +69,19 @@ pub fn reachability(
     elevations: Option<usize>,
     azimuths: Option<usize>,
 ) -> Result<Reachability, PlanError> {
+    reachability_until(request, elevations, azimuths, &Stop::default())
+}
+
+/// [`reachability`], which ends with [`MotionError::Stopped`] soon after `stop` is asked for.
+///
+/// # Errors
+/// Those of [`reachability`].
+pub fn reachability_until(
+    request: &PlanRequest,
+    elevations: Option<usize>,
+    azimuths: Option<usize>,
+    stop: &Stop,
+) -> Result<Reachability, PlanError> {
     let begin = Instant::now();
     let mut warnings = check(request)?;
     let Some(arm) = &request.arm else {
@@ -84,12 +101,16 @@ pub fn reachability(
             format!("from 1 to {most} at {rows} elevations"),
         )
     })?;
+    work_bound::of_poses(request, arm, rows * columns, "cells of the grid")?;
     let space = request.view_space();
-    let grid = grid::Grid::ask(&reach, &space, rows, columns);
+    let all = Allowance::plan(stop);
+    let mut asks = Asks::new(&reach, all.share(GRID));
+    let grid = grid::Grid::ask(&mut asks, &space, rows, columns);
     let asked = begin.elapsed();
-    let given = suggest::given(request, arm, &reach);
+    let mut judge = suggest::Judge { request, arm, reach: &reach, left: all.share(1.0 - GRID) };
+    let given = suggest::given(&mut judge);
     let suggestions = if reach.is_quick() {
-        suggest::suggest(request, arm, &given)
+        suggest::suggest(&mut judge, &given)
     } else {
         warnings.push(Warning::new(
             "no_suggestions",
@@ -97,11 +118,27 @@ pub fn reachability(
         ));
         Vec::new()
     };
+    if stop.is_asked() {
+        return Err(MotionError::Stopped.into());
+    }
+    let counts = grid.counts();
+    if let Some(open) = counts.get(grid::WORK_LIMIT) {
+        let text = format!(
+            "the cell is so hard that the work ended before {open} of {} cells of the grid were answered: they \
+             count as out of reach",
+            rows * columns
+        );
+        warnings.push(Warning::new("work_limit", text));
+    }
+    if judge.left.is_over() {
+        let text = "the cell is so hard that the work ended before all places for the object were looked at";
+        warnings.push(Warning::new("work_limit", text));
+    }
     Ok(Reachability {
         fraction: grid.fraction(),
         by_elevation: grid.by_row(),
         by_azimuth: grid.by_column(),
-        counts: grid.counts(),
+        counts,
         elevations_rad: grid.elevations_rad,
         azimuths_rad: grid.azimuths_rad,
         grid: grid.codes,

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::Place;
 use crate::geometry::Point;
-use crate::motion::{Reach, farthest_reach_m, object_stands_clear};
+use crate::motion::{Allowance, Reach, farthest_reach_m, object_stands_clear};
 use crate::plan::{Arm, ObjectSphere, PlanRequest, cell};
 use crate::views::Lattice;
 
@@ -24,17 +24,21 @@ const APART_M: f64 = 0.05;
 const WORTH: f64 = 0.01;
 
 /// The given place.
-pub(super) fn given(request: &PlanRequest, arm: &Arm, reach: &Reach) -> Place {
-    let directions = if reach.is_quick() { DIRECTIONS.1 } else { DIRECTIONS.0 };
-    let center_in_base = request.object().center_in_base;
-    Place { center_in_base, fraction: fraction(request, arm, center_in_base, directions) }
+pub(super) fn given(judge: &mut Judge) -> Place {
+    let directions = if judge.reach.is_quick() { DIRECTIONS.1 } else { DIRECTIONS.0 };
+    let center_in_base = judge.request.object().center_in_base;
+    judge
+        .judge(&[center_in_base], directions)
+        .first()
+        .copied()
+        .unwrap_or(Place { center_in_base, fraction: 0.0 })
 }
 
 /// The best places found for the object at its height: rings about the base, the best of their
 /// places moved about.
-pub(super) fn suggest(request: &PlanRequest, arm: &Arm, given: &Place) -> Vec<Place> {
+pub(super) fn suggest(judge: &mut Judge, given: &Place) -> Vec<Place> {
     let center = given.center_in_base;
-    let farthest_m = farthest_reach_m(&cell(request, arm));
+    let farthest_m = farthest_reach_m(&cell(judge.request, judge.arm));
     let (rings, around) = RINGS;
     let spacing_m = farthest_m / rings as f64;
     let at = |index: usize| {
@@ -45,32 +49,29 @@ pub(super) fn suggest(request: &PlanRequest, arm: &Arm, given: &Place) -> Vec<Pl
         let (sin, cos) = (turn * TAU).sin_cos();
         Point::new(radius_m * cos, radius_m * sin, center.z)
     };
-    let judged = |place: Point, directions: usize| Place {
-        center_in_base: place,
-        fraction: fraction(request, arm, place, directions),
-    };
-    let mut places: Vec<Place> =
-        (0..rings * around).into_par_iter().map(|index| judged(at(index), DIRECTIONS.0)).collect();
+    let rings: Vec<Point> = (0..rings * around).map(at).collect();
+    let mut places = judge.judge(&rings, DIRECTIONS.0);
     sort(&mut places, &center);
     places.truncate(REFINED.0);
-    let mut places: Vec<Place> = places
-        .into_par_iter()
-        .map(|place| {
-            let mut best = judged(place.center_in_base, DIRECTIONS.1);
-            let mut step_m = 0.5 * spacing_m;
-            for _ in 0..REFINED.1 {
-                let moves = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(x, y)| {
-                    judged(best.center_in_base + nalgebra::vector![x * step_m, y * step_m, 0.0], DIRECTIONS.1)
-                });
-                let better = moves.into_iter().filter(|moved| moved.fraction > best.fraction);
-                if let Some(moved) = better.max_by(|a, b| a.fraction.total_cmp(&b.fraction)) {
-                    best = moved;
-                }
-                step_m *= 0.5;
+    let best: Vec<Point> = places.iter().map(|place| place.center_in_base).collect();
+    let mut places = judge.judge(&best, DIRECTIONS.1);
+    let mut step_m = 0.5 * spacing_m;
+    for _ in 0..REFINED.1 {
+        let around = |place: &Place| {
+            let from = place.center_in_base;
+            [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)]
+                .map(|(x, y)| from + nalgebra::vector![x * step_m, y * step_m, 0.0])
+        };
+        let moves: Vec<Point> = places.iter().flat_map(around).collect();
+        let moved = judge.judge(&moves, DIRECTIONS.1);
+        for (place, moves) in places.iter_mut().zip(moved.chunks(4)) {
+            let better = moves.iter().filter(|moved| moved.fraction > place.fraction);
+            if let Some(moved) = better.max_by(|a, b| a.fraction.total_cmp(&b.fraction)) {
+                *place = *moved;
             }
-            best
-        })
-        .collect();
+        }
+        step_m *= 0.5;
+    }
     sort(&mut places, &center);
     let mut suggestions: Vec<Place> = Vec::with_capacity(GIVEN);
     for place in places {
@@ -89,19 +90,51 @@ fn sort(places: &mut [Place], center: &Point) {
     places.sort_by(|a, b| b.fraction.total_cmp(&a.fraction).then(away_m(a).total_cmp(&away_m(b))));
 }
 
-/// Reachable part of the band with the object at `place`; 0 where it cannot stand.
-fn fraction(request: &PlanRequest, arm: &Arm, place: Point, directions: usize) -> f64 {
-    let object = ObjectSphere { center_in_base: place, ..request.object() };
-    let moved = PlanRequest { object: Some(object), arm: None, ..request.clone() };
-    let cell = cell(&moved, arm);
-    if !object_stands_clear(&cell) {
-        return 0.0;
+/// Judges places for the object until the work ends.
+pub(super) struct Judge<'a> {
+    pub(super) request: &'a PlanRequest,
+    pub(super) arm: &'a Arm,
+    pub(super) reach: &'a Reach<'a>,
+    pub(super) left: Allowance,
+}
+
+/// Places judged at the same time.
+const AT_A_TIME: usize = 8;
+
+impl Judge<'_> {
+    /// The places with the reachable part of the band about each, from `directions` directions; 0
+    /// where the object cannot stand and where the work has ended.
+    fn judge(&mut self, places: &[Point], directions: usize) -> Vec<Place> {
+        let mut judged = Vec::with_capacity(places.len());
+        for block in places.chunks(AT_A_TIME) {
+            let most = Allowance { most: self.left.most / AT_A_TIME as u64, stop: self.left.stop.clone() };
+            let found: Vec<(f64, u64)> = match self.left.is_over() {
+                true => vec![(0.0, 0); block.len()],
+                false => block.par_iter().map(|place| self.fraction(*place, directions, &most)).collect(),
+            };
+            for (place, (fraction, spent)) in block.iter().zip(found) {
+                self.left = self.left.less(spent);
+                judged.push(Place { center_in_base: *place, fraction });
+            }
+        }
+        judged
     }
-    let Ok(reach) = Reach::new(&cell, arm.roll, arm.start_rad.as_deref()) else { return 0.0 };
-    let space = moved.view_space();
-    let lattice = Lattice::new(space.band, directions);
-    let mut probe = reach.probe();
-    let reached = |direction: &&crate::geometry::Direction| probe.reaches(&space.pose(direction, 0.0));
-    let asked = lattice.directions.iter().skip(1).take(lattice.equal_areas);
-    asked.filter(reached).count() as f64 / lattice.equal_areas as f64
+
+    /// Reachable part of the band with the object at `place`, and the work that took.
+    fn fraction(&self, place: Point, directions: usize, most: &Allowance) -> (f64, u64) {
+        let object = ObjectSphere { center_in_base: place, ..self.request.object() };
+        let moved = PlanRequest { object: Some(object), arm: None, ..self.request.clone() };
+        let cell = cell(&moved, self.arm);
+        if !object_stands_clear(&cell) {
+            return (0.0, 0);
+        }
+        let Ok(reach) = self.reach.with_object_of(&cell) else { return (0.0, 0) };
+        let space = moved.view_space();
+        let lattice = Lattice::new(space.band, directions);
+        let mut probe = reach.probe(most);
+        let reached = |direction: &&crate::geometry::Direction| probe.reaches(&space.pose(direction, 0.0));
+        let asked = lattice.directions.iter().skip(1).take(lattice.equal_areas);
+        let fraction = asked.filter(reached).count() as f64 / lattice.equal_areas as f64;
+        (fraction, probe.spent())
+    }
 }

@@ -389,4 +389,8 @@ impl Kinematics for GeometricKinematics {
         sort_by_move(&mut answer.solutions, previous);
         answer
     }
+
+    fn inverse_from(&self, base_from_flange: &Pose, previous: &[f64]) -> Option<Vec<f64>> {
+        self.numeric.descend_from(base_from_flange, previous)
+    }
 }

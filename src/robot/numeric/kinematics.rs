@@ -272,6 +272,10 @@ impl Kinematics for NumericKinematics {
         sort_by_move(&mut answer.solutions, previous);
         answer
     }
+
+    fn inverse_from(&self, base_from_flange: &Pose, previous: &[f64]) -> Option<Vec<f64>> {
+        self.descend_from(base_from_flange, previous)
+    }
 }
 
 #[cfg(test)]

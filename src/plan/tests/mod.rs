@@ -1,0 +1,6 @@
+//! Scenarios of the whole room.
+
+mod checks;
+mod hard_requests;
+mod requests;
+mod slow_arms;
