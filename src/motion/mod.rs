@@ -6,6 +6,7 @@
 //! to the arm's base; metres, radians, seconds.
 
 mod along_path;
+mod bodies;
 mod broad;
 mod candidates;
 mod cell;

@@ -6,14 +6,15 @@ use rand::Rng;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use super::broad::{AxisBox, Ball, Group, LEAST_OF_GROUP};
+use super::bodies::{Body, Fixed, bodies_of, fixed_of};
+use super::broad::{Ball, Group, LEAST_OF_GROUP};
 use super::cell::Cell;
 use super::contact::{Contact, ContactKind};
 use super::distance::{segment_point, segment_segment, shape_bottom, shape_point, shape_shape_up_to};
 use super::joints::{Joints, MAX_JOINTS, joints_from};
 use super::levers::Levers;
 use super::roll_axis::last_joint_rolls;
-use super::shape::{Core, carried_by, core};
+use super::shape::Core;
 use super::sweep::RESOLUTION_M;
 use super::work::{Work, cost, inverse_work};
 use crate::geometry::{Point, Pose};
@@ -21,21 +22,6 @@ use crate::robot::LinkShape;
 
 /// Random states that tell which parts of the arm always touch.
 const TOUCH_SAMPLES: usize = 200;
-
-/// A shape on a link.
-#[derive(Clone)]
-pub(crate) struct Body {
-    name: String,
-    link: usize,
-    /// Camera or tool.
-    is_mounted: bool,
-    shape: LinkShape,
-    core: Core,
-    /// Whether `core` is the shape itself.
-    exact: bool,
-    /// Radius of the ball around `core` about its middle, metres.
-    ball_radius_m: f64,
-}
 
 /// What a body must keep away from.
 #[derive(Clone, Copy)]
@@ -46,17 +32,6 @@ enum Other {
     Ball(usize, Point, f64),
     /// Any other fixed solid.
     Fixed(usize),
-}
-
-/// A solid that does not move, in the base frame.
-struct Fixed {
-    kind: ContactKind,
-    name: String,
-    shape: LinkShape,
-    core: Core,
-    /// Whether `core` is the shape itself.
-    exact: bool,
-    around: AxisBox,
 }
 
 /// A body, what it must keep away from, by how much, and how fast the two can approach.
@@ -427,45 +402,4 @@ impl<'a> Scene<'a> {
         let upper: Vec<f64> = joints.iter().map(|j| j.upper_rad).collect();
         (joints_from(&lower), joints_from(&upper))
     }
-}
-
-fn bodies_of(cell: &Cell, dof: usize) -> Vec<Body> {
-    let body = |name: &str, link: usize, is_mounted: bool, shape: LinkShape| Body {
-        name: name.to_owned(),
-        link,
-        is_mounted,
-        core: core(&shape),
-        ball_radius_m: Ball::around(&core(&shape)).radius_m,
-        exact: matches!(shape, LinkShape::Capsule { .. }),
-        shape,
-    };
-    let kinematics = cell.robot.kinematics.as_ref();
-    let zero = [0.0; MAX_JOINTS];
-    let last_pose = kinematics.link_poses(&zero[..dof]).pop().unwrap_or_default();
-    let last_from_flange = last_pose.inv_mul(&kinematics.forward(&zero[..dof]));
-    let last_from_camera = last_from_flange * cell.flange_from_camera;
-    let links = cell.robot.links.iter().enumerate().flat_map(|(i, link)| {
-        link.shapes.iter().map(move |shape| body(&link.name, i.min(dof), false, shape.clone()))
-    });
-    let mounted = |name, last_from_frame: Pose, solids: &'_ [LinkShape]| -> Vec<Body> {
-        solids.iter().map(|shape| body(name, dof, true, carried_by(&last_from_frame, shape))).collect()
-    };
-    let camera = mounted("camera", last_from_camera, &cell.camera_body);
-    let tool = mounted("tool", last_from_flange, &cell.tool);
-    links.chain(camera).chain(tool).collect()
-}
-
-fn fixed_of(cell: &Cell) -> Vec<Fixed> {
-    let fixed = |kind, name: &str, shape: LinkShape| Fixed {
-        kind,
-        name: name.to_owned(),
-        core: core(&shape),
-        around: AxisBox::around(&shape),
-        exact: matches!(shape, LinkShape::Capsule { .. }),
-        shape,
-    };
-    let object = cell.object.iter().map(|o| fixed(ContactKind::Object, "object", o.solid_in_base()));
-    let regions =
-        cell.keep_out.iter().map(|k| fixed(ContactKind::Obstacle, &k.name, k.shape_in_base.clone()));
-    object.chain(regions).collect()
 }

@@ -10,7 +10,7 @@ use super::{
     Arm, Coverage, CoverageReport, PlanError, PlanRequest, UnreachableViews, ViewStatus, cell, replaced,
 };
 use crate::geometry::{Direction, Pose};
-use crate::motion::{Allowance, Cell, KnownState, Objective, Reach, Stop};
+use crate::motion::{Allowance, Cell, KnownState, Objective, Reach, Stop, Timing};
 use crate::views::{ViewSpace, covering_radius_rad, separation_rad, spread};
 
 /// How often the moves of views off the lattice may ask an arm whose inverse kinematics are searched for.
@@ -40,11 +40,11 @@ pub(super) fn adapted_path(
     let rounds = Rounds { request, arm, cell: &cell, end_at_top };
     let all = Allowance::plan(stop);
     let Some(directions) = &set.directions else {
-        return Ok((rounds.path(&set.poses, &[], arm.objective, all)?, None));
+        return Ok((rounds.path(&set.poses, &[], false, all)?, None));
     };
     let space = request.view_space();
     if arm.unreachable_views == UnreachableViews::Skip {
-        let path = rounds.path(&set.poses, &[], arm.objective, all)?;
+        let path = rounds.path(&set.poses, &[], false, all)?;
         let planned = coverage(&taken(directions, &path.statuses), &space);
         return Ok((
             path,
@@ -58,9 +58,8 @@ pub(super) fn adapted_path(
     let answers = asks.ask(&set.poses, |probe, pose| probe.reaches(pose));
     let whole = answers.iter().all(|answer| *answer == Some(true));
     // A set that will be replaced is planned for its views alone.
-    let objective = if whole { arm.objective } else { Objective::Distance };
     clock.pause();
-    let first = rounds.path(&set.poses, &[], objective, all.share(FIRST))?;
+    let first = rounds.path(&set.poses, &[], !whole, all.share(FIRST))?;
     let mut spent = first.work;
     let before = coverage(&taken(directions, &first.statuses), &space);
     if before.views == directions.len() {
@@ -80,7 +79,7 @@ pub(super) fn adapted_path(
         let Some((at, known)) = adapter.views(directions, &statuses, before.views) else { break };
         clock.pause();
         let left = all.less(spent + searching - adapter.asks.left.most);
-        let path = rounds.path(&poses(&space, &at), &known, arm.objective, left)?;
+        let path = rounds.path(&poses(&space, &at), &known, false, left)?;
         clock.go_on();
         spent += path.work;
         let lost = without_way(&path.statuses, &at);
@@ -99,10 +98,10 @@ pub(super) fn adapted_path(
     let mut path = best.path;
     if is_replaced {
         path.warnings.push(replaced::warning(&report, &statuses, arm.roll));
-    } else if objective != arm.objective {
+    } else if !whole {
         dropped += path.time();
         let left = all.less(spent + searching - adapter.asks.left.most);
-        path = rounds.path(&set.poses, &[], arm.objective, left)?;
+        path = rounds.path(&set.poses, &[], false, left)?;
     }
     path.timings.extend([("adapt", clock.elapsed()), ("dropped_motions", dropped)]);
     Ok((path, Some(report)))
@@ -117,14 +116,22 @@ struct Rounds<'a> {
 }
 
 impl Rounds<'_> {
+    /// A draft tells which views can be taken: the way between them and its samples are of no use.
     fn path(
         &self,
         poses: &[Pose],
         known: &[Option<KnownState>],
-        objective: Objective,
+        is_draft: bool,
         allowance: Allowance,
     ) -> Result<ArmPath, PlanError> {
-        let asked = Asked { poses, known, end_at_top: self.end_at_top, objective, allowance };
+        let (objective, timing) = match is_draft {
+            false => (self.arm.objective, self.arm.timing),
+            true => (
+                Objective::Distance,
+                Timing { sample_period_s: Timing::SAMPLE_PERIOD_S.1, ..self.arm.timing },
+            ),
+        };
+        let asked = Asked { poses, known, end_at_top: self.end_at_top, objective, timing, allowance };
         arm_path(self.request, self.arm, self.cell, &asked)
     }
 }

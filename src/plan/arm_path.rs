@@ -11,8 +11,8 @@ use super::{
 };
 use crate::geometry::Pose;
 use crate::motion::{
-    Allowance, Cell, KnownState, MotionPlan, MotionRequest, Objective, Order, SkipReason, ViewOutcome,
-    plan_motion,
+    Allowance, Cell, KnownState, MotionPlan, MotionRequest, Objective, Order, SkipReason, Timing,
+    ViewOutcome, plan_motion,
 };
 use crate::order::{OPTIMALITY_TOLERANCE, OrderedPath, order_points};
 
@@ -45,6 +45,7 @@ pub(super) struct Asked<'a> {
     pub(super) known: &'a [Option<KnownState>],
     pub(super) end_at_top: bool,
     pub(super) objective: Objective,
+    pub(super) timing: Timing,
     pub(super) allowance: Allowance,
 }
 
@@ -60,7 +61,7 @@ pub(super) fn arm_path(
     asked: &Asked,
 ) -> Result<ArmPath, PlanError> {
     let begin = Instant::now();
-    let &Asked { poses, known, end_at_top, objective, ref allowance } = asked;
+    let &Asked { poses, known, end_at_top, objective, timing, ref allowance } = asked;
     let ordering = Ordering { request, poses, last: RefCell::new(None) };
     let by_length = |kept: &[usize], first: usize| ordering.order(kept, first);
     // Initial views are few: their order is fixed beforehand, and the unreachable ones fall out.
@@ -81,7 +82,7 @@ pub(super) fn arm_path(
         objective,
         known: Some(&known),
         allowance: Some(allowance),
-        timing: arm.timing,
+        timing,
         ..MotionRequest::new(cell, &views)
     })?;
     let planning_time = begin.elapsed() - ordering.time();

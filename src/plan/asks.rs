@@ -5,14 +5,14 @@ use rayon::prelude::*;
 use crate::geometry::Pose;
 use crate::motion::{Allowance, Probe, Reach};
 
-/// Least work of one question before its answer is left open: 40 ms.
-const QUESTION: u64 = 10_000_000;
+/// Least work of one question before its answer is left open: a millisecond.
+const QUESTION: u64 = 250_000;
 /// The same in questions of the usual work.
-const USUAL: u64 = 4;
+const USUAL: u64 = 8;
 /// Part of the allowance that questions asked at the same time may take beyond it.
 const BEYOND: u64 = 4;
 /// Questions asked at the same time.
-const AT_A_TIME: (usize, usize) = (2, 64);
+const AT_A_TIME: (usize, usize) = (2, 1024);
 
 /// Asks, and counts what is left. However the questions are spread over threads, the same ones are
 /// answered: they go out in blocks, and the work of a block counts after it.

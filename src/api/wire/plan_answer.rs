@@ -51,7 +51,7 @@ pub struct PlanAnswer {
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
 #[schema(as = CoverageReport)]
 pub struct CoverageReportJson {
-    /// The Tammes set with the views that cannot be reached merely left out.
+    /// The views planned where those of the Tammes set that cannot be taken are merely left out.
     pub before: CoverageJson,
     /// The views planned.
     pub after: CoverageJson,
@@ -146,7 +146,7 @@ pub enum ViewStatusJson {
 /// Why a view is skipped.
 #[derive(Clone, Debug, Serialize, Deserialize, ToSchema)]
 pub struct SkipReason {
-    /// `no_ik`, `joint_limit`, `self_collision`, `table_collision`, `object_collision`, `obstacle_collision`
+    /// `no_ik`, `joint_limit`, `self_collision`, `table_collision`, `object_collision`, `obstacle_collision`,
     /// `no_path` or `work_limit`.
     pub code: String,
     /// For people.
