@@ -10,7 +10,8 @@ async fn an_unknown_object_is_photographed_planned_and_scanned() {
     let server = Server::start(data.path());
 
     let initial = server.post_json("/v1/plans", &with(cell(), json!({"views": "initial"}))).await;
-    assert_eq!(initial["view_count"], json!({"predicted": null, "raw": null, "used": 3}));
+    let unpredicted = json!({"predicted": null, "raw": null, "interval": null, "novelty": null, "used": 3});
+    assert_eq!(initial["view_count"], unpredicted);
     assert_eq!(initial["order"].as_array().unwrap().last(), Some(&json!(0)), "ends at the top");
     let names: Vec<&str> =
         initial["views"].as_array().unwrap().iter().map(|view| view["name"].as_str().unwrap()).collect();
@@ -27,6 +28,7 @@ async fn an_unknown_object_is_photographed_planned_and_scanned() {
         let plan = server.post_json("/v1/plans", &request).await;
         assert_eq!(plan["view_count"]["predicted"], plan["view_count"]["used"]);
         assert!(plan["view_count"]["raw"].is_f64());
+        assert!(plan["view_count"]["novelty"].as_f64().unwrap() < 1.0, "{}", plan["view_count"]);
         assert_eq!(plan["expected_image_poses"].as_array().unwrap().len(), 3);
         let codes: Vec<&str> =
             plan["warnings"].as_array().unwrap().iter().map(|w| w["code"].as_str().unwrap()).collect();
