@@ -11,7 +11,7 @@ ENCODER   ?= efficientnet_lite0
 TRAIN_ENV := models/training/.venv
 SUDO      := $(if $(filter 0,$(shell id -u)),,sudo)
 
-.PHONY: run test system-packages build openapi views-table bench objects label label-repeats inputs train-env train pictures test-training
+.PHONY: run test system-packages build openapi views-table bench objects label label-repeats inputs train-env train table1 pictures test-training
 
 ## Serves on 127.0.0.1:8080 with the model in models/.
 run: system-packages
@@ -104,6 +104,10 @@ train: inputs train-env
 	cd models/training && .venv/bin/python -m prvnet.card --run $(abspath $(RUN)) --model $(abspath models/prvnet.onnx) \
 	  --repeats $(abspath $(REPEATS)) --card $(abspath models/MODEL_CARD.md)
 	$(MAKE) pictures
+
+## The paper's Table I on the held-out objects: minutes an object, resumable.
+table1: $(OBJECTS)/.done build
+	target/release/prv evaluate table1 --objects $(OBJECTS) --labels $(LABELS) --out models/table1 --jobs $(JOBS)
 
 ## The model card's pictures.
 pictures: inputs train-env
