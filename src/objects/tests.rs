@@ -9,11 +9,11 @@ use super::families::{built, families, made_object};
 use super::shape::Built;
 use super::*;
 
+/// An edge by the bits of its two corners, the lesser first, so that equal positions meet whatever their index.
+type Edge = ([u32; 3], [u32; 3]);
+
 /// How often each edge of a part's triangles is run along forwards less backwards, and at all; six volumes.
-fn edges_and_volume(
-    built: &Built,
-    part: &super::shape::Part,
-) -> (HashMap<([u32; 3], [u32; 3]), (i32, u32)>, f64) {
+fn edges_and_volume(built: &Built, part: &super::shape::Part) -> (HashMap<Edge, (i32, u32)>, f64) {
     let mut edges = HashMap::new();
     let mut volume = 0.0;
     for triangle in &built.mesh.triangles[part.triangles.clone()] {
