@@ -162,7 +162,8 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Adds the states at a branch's zeros between consecutive trials. Where two zeros may
-    /// lie between two trials, or the branch ends there, it looks again in smaller steps, `depth` times.
+    /// lie between two trials, or the branch ends there or has but a short piece within reach, it
+    /// looks again in smaller steps, `depth` times.
     fn scan(&self, trials: &[Trial], branch: usize, depth: u32, found: &mut Vec<[f64; 6]>) {
         let held = |trial: &Trial| trial.placements[branch].held_by.is_some();
         for pair in trials.windows(2) {
@@ -183,9 +184,18 @@ impl Search<'_> {
         }
         for triple in trials.windows(3) {
             let [before, here, after] = triple else { continue };
+            if held(before) && held(here) && held(after) {
+                if depth > 0
+                    && let Some(inside) = self.inside(branch, before, here, after)
+                {
+                    let ends = [before, after].map(|outside| self.edge(branch, &inside, outside));
+                    self.scan(&self.between(branch, &ends[0], &ends[1]), branch, depth - 1, found);
+                }
+                continue;
+            }
             let [a, b, c] = [before, here, after].map(|trial| trial.misses[branch]);
             let least = b.abs() < TOUCHING && b.abs() <= a.abs() && b.abs() <= c.abs();
-            if !(least && a * b > 0.0 && b * c > 0.0) || (held(before) && held(here) && held(after)) {
+            if !(least && a * b > 0.0 && b * c > 0.0) {
                 continue;
             }
             if depth > 0 {
@@ -194,6 +204,27 @@ impl Search<'_> {
                 found.push(self.arm.state(here, branch, self.seed_rad));
             }
         }
+    }
+
+    /// A trial within reach amid three beyond it, if the middle one breaks their bound least: the
+    /// branch may be within reach for less than the distance of two trials. How far it is beyond is
+    /// smooth in the last angle (for axes 1 and 2 that meet, a constant and one sine wave), so that
+    /// the lowest point of the parabola through the three tells.
+    fn inside(&self, branch: usize, before: &Trial, here: &Trial, after: &Trial) -> Option<Trial> {
+        let [a, b, c] = [before, here, after].map(|trial| &trial.placements[branch]);
+        if a.held_by != b.held_by || b.held_by != c.held_by || b.beyond > a.beyond || b.beyond > c.beyond {
+            return None;
+        }
+        let steps = [here.last_rad - before.last_rad, after.last_rad - here.last_rad];
+        let slopes = [(b.beyond - a.beyond) / steps[0], (c.beyond - b.beyond) / steps[1]];
+        let bend = (slopes[1] - slopes[0]) / (steps[0] + steps[1]);
+        let lowest = here.last_rad - 0.5 * (slopes[0] + bend * steps[0]) / bend;
+        // Where all three are as far beyond there is no lowest point.
+        if !lowest.is_finite() {
+            return None;
+        }
+        let trial = self.trial(branch, lowest);
+        trial.placements[branch].held_by.is_none().then_some(trial)
     }
 
     /// The last trial within reach on the way from one that is to one that is not.

@@ -39,6 +39,8 @@ pub(super) struct Placement {
     pub angles_rad: [f64; 3],
     /// The bound that keeps the point away, if one does.
     pub held_by: Option<ReachBound>,
+    /// By how much that bound is broken, 0 or more: metres at the shoulder, square metres at the elbow.
+    pub beyond: f64,
     /// How far it is from falling together with another way, 0 to 1.
     pub room: f64,
 }
@@ -97,13 +99,13 @@ impl Positioner {
             for (slot, q3) in slots.iter_mut().zip(elbows.angles_rad) {
                 let arm = upper + turned(&a3.along, q3, &fore);
                 let q2 = angle_between(&a2.along, &arm, &reach, seed_rad[1]);
-                let held_by = if shoulders.beyond != 0.0 {
-                    Some(ReachBound::InsideShoulderColumn)
+                let (held_by, beyond) = if shoulders.beyond != 0.0 {
+                    (Some(ReachBound::InsideShoulderColumn), shoulders.beyond.abs())
                 } else {
-                    beyond_elbow(elbows.beyond)
+                    (beyond_elbow(elbows.beyond), elbows.beyond.abs())
                 };
-                *slot =
-                    Placement { angles_rad: [-back, q2, q3], held_by, room: shoulders.room.min(elbows.room) };
+                let room = shoulders.room.min(elbows.room);
+                *slot = Placement { angles_rad: [-back, q2, q3], held_by, beyond, room };
             }
         }
         placements
@@ -130,16 +132,22 @@ impl Positioner {
             for (slot, q2) in slots.iter_mut().zip(lifts.angles_rad) {
                 let lifted = turned(&a2.along, q2, &arm);
                 let q1 = angle_between(&a1.along, &lifted, &reach, seed_rad[0]);
-                let held_by = beyond_elbow(elbows.beyond)
-                    .or((lifts.beyond != 0.0).then_some(ReachBound::InsideShoulderColumn));
-                *slot = Placement { angles_rad: [q1, q2, q3], held_by, room: elbows.room.min(lifts.room) };
+                let (held_by, beyond) = match beyond_elbow(elbows.beyond) {
+                    Some(bound) => (Some(bound), elbows.beyond.abs()),
+                    None if lifts.beyond != 0.0 => {
+                        (Some(ReachBound::InsideShoulderColumn), lifts.beyond.abs())
+                    }
+                    None => (None, 0.0),
+                };
+                let room = elbows.room.min(lifts.room);
+                *slot = Placement { angles_rad: [q1, q2, q3], held_by, beyond, room };
             }
         }
         placements
     }
 }
 
-const EMPTY: Placement = Placement { angles_rad: [0.0; 3], held_by: None, room: 0.0 };
+const EMPTY: Placement = Placement { angles_rad: [0.0; 3], held_by: None, beyond: 0.0, room: 0.0 };
 
 fn beyond_elbow(beyond: f64) -> Option<ReachBound> {
     if beyond > 0.0 {

@@ -17,6 +17,23 @@ fn xarm() -> RobotModel {
     RobotModel::named("xarm6").unwrap()
 }
 
+/// The state at these shares of the joints' ranges.
+fn state(robot: &RobotModel, share: [f64; 6]) -> Vec<f64> {
+    robot.joints.iter().zip(share).map(|(j, s)| j.lower_rad + s * (j.upper_rad - j.lower_rad)).collect()
+}
+
+#[test]
+fn a_solution_within_reach_for_less_than_a_step_of_the_search_is_found() {
+    // Nearly stretched: while the last joint turns, the wrist is within reach for 0.06 rad.
+    let robot = xarm();
+    let q = state(&robot, [0.01, 0.01, 0.2943, 0.4958, 0.7701, 0.0188]);
+    assert!(stiffness(robot.kinematics.as_ref(), &q) > SINGULAR);
+    let target = robot.kinematics.forward(&q);
+    let answer = robot.kinematics.inverse(&target, &[]);
+    check_all(robot.kinematics.as_ref(), &robot.joints, &target, &answer);
+    assert!(nearest(&answer, &q) < 1e-4, "{answer:?}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(500))]
 
@@ -24,8 +41,7 @@ proptest! {
     fn the_xarm_finds_the_posture_it_came_from(share in proptest::array::uniform6(0.01..0.99f64)) {
         let robot = xarm();
         prop_assert_eq!(robot.solver().structure, ArmStructure::OffsetWrist);
-        let q: Vec<f64> = robot.joints.iter().zip(share)
-            .map(|(j, s)| j.lower_rad + s * (j.upper_rad - j.lower_rad)).collect();
+        let q = state(&robot, share);
         let target = robot.kinematics.forward(&q);
         let answer = robot.kinematics.inverse(&target, &[]);
         check_all(robot.kinematics.as_ref(), &robot.joints, &target, &answer);
