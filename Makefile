@@ -9,6 +9,8 @@ INPUTS    ?= models/training/data/inputs
 RUN       ?= models/training/runs/prvnet
 ENCODER   ?= efficientnet_lite0
 TRAIN_ENV := models/training/.venv
+# Any number: the cases that the property tests draw, the same in every run unless another is given.
+PROPTEST_RNG_SEED ?= 20
 SUDO      := $(if $(filter 0,$(shell id -u)),,sudo)
 
 .PHONY: run test system-packages build openapi views-table bench objects label label-repeats inputs train-env train table1 pictures test-training
@@ -18,6 +20,8 @@ run: system-packages
 	cargo run --release -- serve
 
 ## Every test of the service; the training package's own tests are `make test-training`.
+## `make test PROPTEST_RNG_SEED=$RANDOM` draws other cases.
+test: export PROPTEST_RNG_SEED := $(PROPTEST_RNG_SEED)
 test: system-packages
 	cargo test --release
 	cd models/training && $(CURDIR)/.venv/bin/python -m pytest -q -m "not torch"
