@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::label::measure::{LabelSettings, measure};
 use prv::label::protocol::{curve_design, seed_of};
-use prv::label::record::samples_text;
+use prv::label::record::{over_black, over_grey, samples_text};
 use prv::label::store::LabelStore;
 use prv::nerf::NerfSettings;
 use prv::objects::{ObjectEntry, select_objects};
@@ -129,16 +129,18 @@ pub fn run(args: &Args) -> CliResult {
                     store.append(&record).map_err(|e| e.to_string())?;
                     let reading = &record.reading;
                     bar.set_message(format!(
-                        "{} v*={:?} near={}",
-                        record.object, reading.v_star, reading.v_near
+                        "{} gain={:?} near={} v*={:?}",
+                        record.object, reading.v_gain, reading.v_near, reading.v_star
                     ));
                     if args.json {
                         let line = serde_json::json!({
                             "object": record.object, "draw": record.draw, "repeat": record.repeat,
                             "radius_m": record.radius_m, "status": reading.status.word(),
+                            "v_gain": reading.v_gain, "v_gain_sigma": reading.v_gain_sigma,
                             "v_star": reading.v_star, "v_star_sigma": reading.v_star_sigma,
                             "v_near": reading.v_near, "v_near_sigma": reading.v_near_sigma,
-                            "rms_db": reading.rms_db, "psnr_db": samples_text(&record.samples), "cpu_s": record.cpu_s,
+                            "rms_db": reading.rms_db, "psnr_db": samples_text(&record.samples, over_black),
+                            "psnr_grey_db": samples_text(&record.samples, over_grey), "cpu_s": record.cpu_s,
                         });
                         println!("{line}");
                     }

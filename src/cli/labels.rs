@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use prv::label::protocol::{NEAR_DB, PAPER_ALPHA_DB};
+use prv::label::protocol::{GAIN_DB, NEAR_DB, PAPER_ALPHA_DB};
 use prv::label::reading::{Thresholds, read_label};
 use prv::label::store::{LabelStore, read_labels};
 
@@ -22,6 +22,9 @@ pub struct Args {
     /// v* is where one more view brings less than this, dB.
     #[arg(long, env = "PRV_ALPHA", default_value_t = PAPER_ALPHA_DB)]
     alpha: f64,
+    /// v_gain, the label, is where one more view brings less than this, dB, on the steady curve.
+    #[arg(long, env = "PRV_GAIN", default_value_t = GAIN_DB)]
+    gain: f64,
     /// v_near is where the curve comes this close to its value at 100 views, dB.
     #[arg(long, env = "PRV_NEAR", default_value_t = NEAR_DB)]
     near: f64,
@@ -32,12 +35,12 @@ pub struct Args {
 
 /// Joins and reads.
 pub fn run(args: &Args) -> CliResult {
-    for (name, value) in [("alpha", args.alpha), ("near", args.near)] {
+    for (name, value) in [("alpha", args.alpha), ("gain", args.gain), ("near", args.near)] {
         if !(value.is_finite() && value > 0.0) {
             return Err(format!("--{name} is {value}, must be greater than 0 dB").into());
         }
     }
-    let thresholds = Thresholds { alpha_db: args.alpha, near_db: args.near };
+    let thresholds = Thresholds { alpha_db: args.alpha, gain_db: args.gain, near_db: args.near };
     let mut store = LabelStore::open(&args.out)?;
     let (before, mut twice) = (store.len(), 0);
     for file in &args.files {

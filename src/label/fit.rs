@@ -1,15 +1,22 @@
-//! Orthogonal distance regression of the log-normal curve.
-//!
-//! Both axes carry unit weight (one view weighs as much as one dB), which is what
-//! the paper's authors' fit used. Each point's foot on the curve is found by
-//! Newton's method; the four parameters by Levenberg-Marquardt on the signed
-//! orthogonal distances (Boggs, Byrd and Schnabel 1987 in its reduced form).
+//! Fits a curve to the NeRFs of an object, in two ways.
+
+use nalgebra::{Matrix4, Vector4};
 
 use super::lognormal::LogNormalCurve;
-use nalgebra::{Matrix4, Vector4};
+use super::orthogonal::orthogonal;
+use super::steady::steady;
 
 /// One measured point: views and the PSNR they gave, dB.
 pub type CurvePoint = (f64, f64);
+
+/// What a fit makes small.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// The paper's: orthogonal distances, unit weights.
+    Orthogonal,
+    /// Ours: residuals by their noise, outliers held back, widths drawn to their mean.
+    Steady,
+}
 
 /// A fitted curve and how well it fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,11 +53,19 @@ pub enum FitError {
 /// Fewest points a fit takes: one more than it has parameters.
 const LEAST_POINTS: usize = 5;
 
+/// A cost, and the Gauss-Newton matrix and gradient for reducing it over `[y0, amplitude, ln x_c, ln width]`.
+pub(super) struct Normal {
+    pub cost: f64,
+    pub hessian: Matrix4<f64>,
+    /// Half the direction of steepest descent.
+    pub gradient: Vector4<f64>,
+}
+
 /// Fits the curve to `points` (any order).
 ///
 /// # Errors
 /// [`FitError`] for too few or non-finite points.
-pub fn fit_curve(points: &[CurvePoint]) -> Result<CurveFit, FitError> {
+pub fn fit_curve(points: &[CurvePoint], scheme: Scheme) -> Result<CurveFit, FitError> {
     if points.len() < LEAST_POINTS {
         return Err(FitError::TooFewPoints { given: points.len(), least: LEAST_POINTS });
     }
@@ -59,13 +74,50 @@ pub fn fit_curve(points: &[CurvePoint]) -> Result<CurveFit, FitError> {
             return Err(FitError::BadPoint { index, views, psnr_db });
         }
     }
-    Ok(refine(points, starting_curve(points)))
+    Ok(refit(points, starting_curve(points), scheme))
 }
 
 /// Fits the curve to `points` from a curve that is close already, as for a resampled set of
-/// the same points. Points are taken as they are.
-pub fn refit(points: &[CurvePoint], start: LogNormalCurve) -> CurveFit {
-    refine(points, start)
+/// the same points, by Levenberg-Marquardt. Points are taken as they are.
+pub fn refit(points: &[CurvePoint], start: LogNormalCurve, scheme: Scheme) -> CurveFit {
+    let normal = |parameters: &Vector4<f64>| match scheme {
+        Scheme::Orthogonal => orthogonal(points, &curve_of(parameters)),
+        Scheme::Steady => steady(points, &curve_of(parameters)),
+    };
+    let mut parameters = Vector4::new(start.y0, start.amplitude, start.x_c.ln(), start.width.ln());
+    let mut damping = 1e-3;
+    let mut at = normal(&parameters);
+    for _ in 0..200 {
+        let mut damped: Matrix4<f64> = at.hessian;
+        for k in 0..4 {
+            damped[(k, k)] += damping * at.hessian[(k, k)].max(1e-9);
+        }
+        let Some(step) = damped.cholesky().map(|c| c.solve(&at.gradient)) else {
+            damping *= 10.0;
+            continue;
+        };
+        let mut next = parameters + step;
+        // Widths outside this range are flat lines or steps, where the parameters mean nothing.
+        next[2] = next[2].clamp(-3.0, 7.0);
+        next[3] = next[3].clamp(-3.0, 2.0);
+        let there = normal(&next);
+        if there.cost < at.cost {
+            let gain = (at.cost - there.cost) / at.cost.max(1e-300);
+            (parameters, at) = (next, there);
+            damping = (damping * 0.3).max(1e-12);
+            if gain < 1e-12 {
+                break;
+            }
+        } else {
+            damping *= 4.0;
+            if damping > 1e12 {
+                break;
+            }
+        }
+    }
+    let curve = curve_of(&parameters);
+    let squares = points.iter().map(|&(x, y)| (y - curve.value(x)).powi(2)).sum::<f64>();
+    CurveFit { curve, rms_db: (squares / points.len().max(1) as f64).sqrt() }
 }
 
 /// The best curve of a grid over `x_c` and `width`, with `y0` and `amplitude` by linear least squares.
@@ -101,91 +153,8 @@ fn starting_curve(points: &[CurvePoint]) -> LogNormalCurve {
     best.1
 }
 
-/// Levenberg-Marquardt from `start`.
-fn refine(points: &[CurvePoint], start: LogNormalCurve) -> CurveFit {
-    let mut parameters = Vector4::new(start.y0, start.amplitude, start.x_c.ln(), start.width.ln());
-    let mut damping = 1e-3;
-    let (mut cost, mut hessian, mut gradient) = normal_equations(points, &curve_of(&parameters));
-    for _ in 0..200 {
-        let mut damped: Matrix4<f64> = hessian;
-        for k in 0..4 {
-            damped[(k, k)] += damping * hessian[(k, k)].max(1e-9);
-        }
-        let Some(step) = damped.cholesky().map(|c| c.solve(&gradient)) else {
-            damping *= 10.0;
-            continue;
-        };
-        let mut next = parameters + step;
-        // Widths outside this range are flat lines or steps, where the parameters mean nothing.
-        next[2] = next[2].clamp(-3.0, 7.0);
-        next[3] = next[3].clamp(-3.0, 2.0);
-        let (next_cost, next_hessian, next_gradient) = normal_equations(points, &curve_of(&next));
-        if next_cost < cost {
-            let gain = (cost - next_cost) / cost.max(1e-300);
-            (parameters, cost, hessian, gradient) = (next, next_cost, next_hessian, next_gradient);
-            damping = (damping * 0.3).max(1e-12);
-            if gain < 1e-12 {
-                break;
-            }
-        } else {
-            damping *= 4.0;
-            if damping > 1e12 {
-                break;
-            }
-        }
-    }
-    let curve = curve_of(&parameters);
-    let squares = points.iter().map(|&(x, y)| (y - curve.value(x)).powi(2)).sum::<f64>();
-    CurveFit { curve, rms_db: (squares / points.len().max(1) as f64).sqrt() }
-}
-
 fn curve_of(p: &Vector4<f64>) -> LogNormalCurve {
     LogNormalCurve { y0: p[0], amplitude: p[1], x_c: p[2].exp(), width: p[3].exp() }
-}
-
-/// Sum of squared orthogonal distances, and the Gauss-Newton matrix and gradient for reducing it.
-fn normal_equations(points: &[CurvePoint], curve: &LogNormalCurve) -> (f64, Matrix4<f64>, Vector4<f64>) {
-    let (mut cost, mut hessian, mut gradient) = (0.0, Matrix4::zeros(), Vector4::zeros());
-    for &(x, y) in points {
-        let foot = foot_on_curve(x, y, curve);
-        let slope = curve.slope(foot);
-        let (dx, dy) = (x - foot, y - curve.value(foot));
-        // At the foot the residual is normal to the curve, so its length moves with
-        // the parameters by the curve's vertical shift seen along that normal.
-        let tilt = 1.0 / (1.0 + slope * slope).sqrt();
-        let distance = (dx * dx + dy * dy).sqrt().copysign(dy);
-        let row = Vector4::from(curve.parameter_gradient(foot)) * tilt;
-        cost += distance * distance;
-        hessian += row * row.transpose();
-        gradient += row * distance;
-    }
-    (cost, hessian, gradient)
-}
-
-/// The views coordinate of the point on the curve that is nearest to (x, y).
-fn foot_on_curve(x: f64, y: f64, curve: &LogNormalCurve) -> f64 {
-    let mut foot = x;
-    let distance = |t: f64| (x - t).powi(2) + (y - curve.value(t)).powi(2);
-    let mut best = distance(foot);
-    for _ in 0..20 {
-        let slope = curve.slope(foot);
-        // Gauss-Newton on the squared distance; halved until it descends.
-        let mut step = ((x - foot) + slope * (y - curve.value(foot))) / (1.0 + slope * slope);
-        let mut moved = false;
-        for _ in 0..8 {
-            let candidate = (foot + step).max(0.05);
-            let at = distance(candidate);
-            if at < best {
-                (foot, best, moved) = (candidate, at, true);
-                break;
-            }
-            step *= 0.5;
-        }
-        if !moved || step.abs() < 1e-9 {
-            break;
-        }
-    }
-    foot
 }
 
 #[cfg(test)]
@@ -200,7 +169,7 @@ mod tests {
     fn exact_points_give_back_their_curve() {
         for (amplitude, x_c, width) in [(15.0, 5.0, 0.8), (22.0, 9.0, 1.1), (8.0, 3.0, 0.6)] {
             let truth = LogNormalCurve { y0: 12.0, amplitude, x_c, width };
-            let fit = fit_curve(&curve_points(&truth)).unwrap();
+            let fit = fit_curve(&curve_points(&truth), Scheme::Orthogonal).unwrap();
             assert!(fit.rms_db < 1e-4, "{fit:?}");
             assert_eq!(fit.curve.required_views(0.02), truth.required_views(0.02));
         }
@@ -212,7 +181,7 @@ mod tests {
         let mut points = curve_points(&truth);
         // One steep point measured half a view early.
         points[1].1 = truth.value(points[1].0 + 0.5);
-        let fit = fit_curve(&points).unwrap();
+        let fit = fit_curve(&points, Scheme::Orthogonal).unwrap();
         let off = f64::from(fit.curve.required_views(0.02).unwrap())
             - f64::from(truth.required_views(0.02).unwrap());
         assert!(off.abs() <= 2.0, "{off}");
@@ -220,8 +189,11 @@ mod tests {
 
     #[test]
     fn too_few_points_and_nan_are_refused_with_their_numbers() {
-        assert_eq!(fit_curve(&[(3.0, 20.0)]), Err(FitError::TooFewPoints { given: 1, least: 5 }));
+        assert_eq!(
+            fit_curve(&[(3.0, 20.0)], Scheme::Steady),
+            Err(FitError::TooFewPoints { given: 1, least: 5 })
+        );
         let points = [(3.0, 20.0), (5.0, f64::NAN), (7.0, 21.0), (9.0, 22.0), (11.0, 22.5)];
-        assert!(matches!(fit_curve(&points), Err(FitError::BadPoint { index: 1, .. })));
+        assert!(matches!(fit_curve(&points, Scheme::Orthogonal), Err(FitError::BadPoint { index: 1, .. })));
     }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::fit::FitError;
 use super::photograph::{Photographer, lattice, pose};
 use super::protocol::{
-    MIN_COVERAGE, curve_design, radius_draws, seed_of, test_directions, training_directions,
+    BLACK, GREY, MIN_COVERAGE, curve_design, radius_draws, seed_of, test_directions, training_directions,
 };
 use super::reading::{Thresholds, read_label};
 use super::record::{CurveSample, LabelRecord};
@@ -80,18 +80,21 @@ pub fn measure(
     let mut samples: Vec<CurveSample> = Vec::new();
     let mut done = 0;
     for (views, repeats) in design {
-        let mut psnr_db = Vec::new();
+        let (mut psnr_db, mut grey_db) = (Vec::new(), Vec::new());
         for k in 0..repeats {
             let chance = chance.wrapping_add((views + 1000 * k) as u64);
             let photos = photographer.take(&training_directions(views, chance)?);
             let nerf_settings = NerfSettings { seed: chance, ..settings.nerf };
             let nerf = train(&photos, &bounds, &nerf_settings, &mut |_| {})?;
-            let each = nerf.psnr_db(&tests);
-            psnr_db.push(each.iter().sum::<f64>() / each.len() as f64);
+            let each = nerf.psnr_db_over([BLACK, GREY], &tests);
+            let mean =
+                |over: usize| each.iter().map(|over_each| over_each[over]).sum::<f64>() / each.len() as f64;
+            psnr_db.push(mean(0));
+            grey_db.push(mean(1));
             done += 1;
             progress(done, nerfs);
         }
-        samples.push(CurveSample { views, psnr_db });
+        samples.push(CurveSample { views, psnr_db, grey_db });
     }
     Ok(LabelRecord {
         object: entry.key.clone(),

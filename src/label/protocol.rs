@@ -20,6 +20,10 @@ pub const PAPER_ALPHA_DB: f64 = 0.02;
 pub const CEILING_VIEWS: usize = 100;
 /// Novel views on which every NeRF is judged.
 pub const TEST_VIEWS: usize = 100;
+/// Background that the paper judges NeRFs over. Over it an object's outline shows only where the object is bright.
+pub const BLACK: [u8; 3] = [0; 3];
+/// Mid-grey, over which bright and dark objects have an outline alike.
+pub const GREY: [u8; 3] = [128; 3];
 /// Side of a label image, pixels.
 pub const IMAGE_SIZE_PX: u32 = 128;
 /// Least share of a camera frame's pixels that the object must cover on average over the five
@@ -28,6 +32,8 @@ pub const MIN_COVERAGE: f64 = 0.035;
 /// Sizes drawn at most.
 pub const SIZE_DRAWS: usize = 5;
 
+/// The gradient threshold of our label, dB per view.
+pub const GAIN_DB: f64 = 0.05;
 /// How close to its own 100-view quality an object must come, dB, for the second definition.
 pub const NEAR_DB: f64 = 0.5;
 
@@ -39,7 +45,7 @@ pub const NEAR_DB: f64 = 0.5;
 /// out: their PSNR scatters by 1 dB. Two NeRFs a number, each with its own turn and seed, since
 /// one point alone cannot tell noise from shape.
 pub fn curve_design() -> Vec<(usize, usize)> {
-    [5, 7, 10, 14, 20, 30, 50, CEILING_VIEWS].map(|views| (views, 2)).to_vec()
+    [(5, 2), (8, 2), (12, 2), (18, 1), (27, 1), (40, 1), (60, 1), (CEILING_VIEWS, 2)].to_vec()
 }
 
 /// The camera of label images: square, no distortion, and wide enough that the

@@ -36,15 +36,10 @@ impl LabelStatus {
 pub struct CurveSample {
     /// Training views.
     pub views: usize,
-    /// Mean PSNR over the test views of each NeRF, dB.
+    /// Mean PSNR over the test views of each NeRF, dB, over black as in the paper.
     pub psnr_db: Vec<f64>,
-}
-
-impl CurveSample {
-    /// Mean over the NeRFs, dB.
-    pub fn mean_db(&self) -> f64 {
-        self.psnr_db.iter().sum::<f64>() / self.psnr_db.len().max(1) as f64
-    }
+    /// The same over mid-grey.
+    pub grey_db: Vec<f64>,
 }
 
 /// What a curve says.
@@ -52,15 +47,19 @@ impl CurveSample {
 pub struct Reading {
     /// Trust.
     pub status: LabelStatus,
-    /// v*: from here on one more view brings less than alpha; `None` with [`LabelStatus::NoPlateau`].
+    /// The label: the first number of views from which one more brings too little on the steady curve.
+    pub v_gain: Option<u32>,
+    /// Its standard deviation, views.
+    pub v_gain_sigma: f64,
+    /// The paper's v*, from its own fit: from here on one more view brings less than alpha.
     pub v_star: Option<u32>,
     /// Standard deviation of v*, views.
     pub v_star_sigma: f64,
-    /// Fewest views that come near the object's own ceiling.
+    /// Fewest views that come near the object's own ceiling, on the steady curve.
     pub v_near: u32,
     /// Its standard deviation, views.
     pub v_near_sigma: f64,
-    /// The fitted curve.
+    /// The steady curve.
     pub curve: LogNormalCurve,
     /// Root mean square residual of the fit, dB.
     pub rms_db: f64,
@@ -94,7 +93,7 @@ pub struct LabelRecord {
 }
 
 /// The columns of `labels.csv`, in order.
-pub const COLUMNS: [&str; 20] = [
+pub const COLUMNS: [&str; 23] = [
     "object",
     "name",
     "category",
@@ -104,6 +103,8 @@ pub const COLUMNS: [&str; 20] = [
     "radius_m",
     "seed",
     "status",
+    "v_gain",
+    "v_gain_sigma",
     "v_star",
     "v_star_sigma",
     "v_near",
@@ -114,23 +115,37 @@ pub const COLUMNS: [&str; 20] = [
     "width",
     "rms_db",
     "psnr_db",
+    "psnr_grey_db",
     "cpu_s",
 ];
 
 impl LabelRecord {
     /// The cells of [`COLUMNS`].
     pub fn cells(&self) -> Vec<String> {
-        let Reading { status, v_star, v_star_sigma, v_near, v_near_sigma, curve, rms_db } = &self.reading;
+        let Reading {
+            status,
+            v_gain,
+            v_gain_sigma,
+            v_star,
+            v_star_sigma,
+            v_near,
+            v_near_sigma,
+            curve,
+            rms_db,
+        } = &self.reading;
+        let open_end = |views: &Option<u32>| views.map_or_else(String::new, |v| v.to_string());
         let text = [&self.object, &self.name, &self.category, &self.licence];
         let numbers = [curve.y0, curve.amplitude, curve.x_c, curve.width, *rms_db];
         text.into_iter()
             .cloned()
             .chain([self.draw.to_string(), self.repeat.to_string()])
             .chain([format!("{:.5}", self.radius_m), self.seed.to_string(), status.word().to_owned()])
-            .chain([v_star.map_or_else(String::new, |v| v.to_string()), format!("{v_star_sigma:.2}")])
+            .chain([open_end(v_gain), format!("{v_gain_sigma:.2}")])
+            .chain([open_end(v_star), format!("{v_star_sigma:.2}")])
             .chain([v_near.to_string(), format!("{v_near_sigma:.2}")])
             .chain(numbers.map(|x| format!("{x:.5}")))
-            .chain([samples_text(&self.samples), format!("{:.2}", self.cpu_s)])
+            .chain([samples_text(&self.samples, over_black), samples_text(&self.samples, over_grey)])
+            .chain([format!("{:.2}", self.cpu_s)])
             .collect()
     }
 }
@@ -143,6 +158,8 @@ impl LabelRecord {
             cells.map(str::to_owned);
         let [
             ..,
+            v_gain,
+            v_gain_sigma,
             v_star,
             v_star_sigma,
             v_near,
@@ -153,10 +170,12 @@ impl LabelRecord {
             width,
             rms_db,
             psnr_db,
+            psnr_grey_db,
             cpu_s,
         ] = *cells;
         let number = |text: &str| text.parse::<f64>().ok();
-        let v_star = if v_star.is_empty() { None } else { Some(v_star.parse().ok()?) };
+        let open_end =
+            |text: &str| if text.is_empty() { Some(None) } else { text.parse::<u32>().ok().map(Some) };
         let curve = LogNormalCurve {
             y0: number(y0)?,
             amplitude: number(amplitude)?,
@@ -165,7 +184,9 @@ impl LabelRecord {
         };
         let reading = Reading {
             status: LabelStatus::from_word(&status)?,
-            v_star,
+            v_gain: open_end(v_gain)?,
+            v_gain_sigma: number(v_gain_sigma)?,
+            v_star: open_end(v_star)?,
             v_star_sigma: number(v_star_sigma)?,
             v_near: v_near.parse().ok()?,
             v_near_sigma: number(v_near_sigma)?,
@@ -182,34 +203,54 @@ impl LabelRecord {
             radius_m: number(&radius_m)?,
             seed: seed.parse().ok()?,
             reading,
-            samples: samples_from_text(psnr_db)?,
+            samples: samples_from_text(psnr_db, psnr_grey_db)?,
             cpu_s: number(cpu_s)?,
         })
     }
 }
 
+/// The PSNR over black of each NeRF of a sample, dB.
+pub fn over_black(sample: &CurveSample) -> &[f64] {
+    &sample.psnr_db
+}
+
+/// The PSNR over mid-grey of each NeRF of a sample, dB.
+pub fn over_grey(sample: &CurveSample) -> &[f64] {
+    &sample.grey_db
+}
+
 /// `3:25.9381/25.8012 5:31.9380/31.8755 ...`: views, then the PSNR of each NeRF.
-pub fn samples_text(samples: &[CurveSample]) -> String {
+pub fn samples_text(samples: &[CurveSample], judged: fn(&CurveSample) -> &[f64]) -> String {
     let sample = |s: &CurveSample| {
-        let each: Vec<String> = s.psnr_db.iter().map(|x| format!("{x:.4}")).collect();
+        let each: Vec<String> = judged(s).iter().map(|x| format!("{x:.4}")).collect();
         format!("{}:{}", s.views, each.join("/"))
     };
     samples.iter().map(sample).collect::<Vec<_>>().join(" ")
 }
 
-/// Reads what [`samples_text`] writes; `None` where a number is missing or malformed.
-pub fn samples_from_text(text: &str) -> Option<Vec<CurveSample>> {
+/// Reads what [`samples_text`] writes over black and over grey; `None` where a number is missing
+/// or malformed, or the two do not belong to the same NeRFs.
+pub fn samples_from_text(black: &str, grey: &str) -> Option<Vec<CurveSample>> {
     let sample = |word: &str| {
         let (views, each) = word.split_once(':')?;
-        let psnr_db = each.split('/').map(|x| x.parse().ok()).collect::<Option<Vec<f64>>>()?;
-        Some(CurveSample { views: views.parse().ok()?, psnr_db })
+        let each = each.split('/').map(|x| x.parse().ok()).collect::<Option<Vec<f64>>>()?;
+        Some((views.parse::<usize>().ok()?, each))
     };
-    text.split_whitespace().map(sample).collect()
+    let (black, grey) = (black.split_whitespace(), grey.split_whitespace());
+    if black.clone().count() != grey.clone().count() {
+        return None;
+    }
+    let both = |(black, grey): (&str, &str)| {
+        let ((views, psnr_db), (same_views, grey_db)) = (sample(black)?, sample(grey)?);
+        let same = views == same_views && psnr_db.len() == grey_db.len();
+        same.then_some(CurveSample { views, psnr_db, grey_db })
+    };
+    black.zip(grey).map(both).collect()
 }
 
 /// The points a curve is fitted to: one a NeRF.
-pub fn curve_points(samples: &[CurveSample]) -> Vec<CurvePoint> {
-    samples.iter().flat_map(|s| s.psnr_db.iter().map(|&psnr| (s.views as f64, psnr))).collect()
+pub fn curve_points(samples: &[CurveSample], judged: fn(&CurveSample) -> &[f64]) -> Vec<CurvePoint> {
+    samples.iter().flat_map(|s| judged(s).iter().map(|&psnr| (s.views as f64, psnr))).collect()
 }
 
 #[cfg(test)]
@@ -219,11 +260,16 @@ mod tests {
     #[test]
     fn samples_survive_their_text() {
         let samples = vec![
-            CurveSample { views: 3, psnr_db: vec![25.9381, 26.0] },
-            CurveSample { views: 100, psnr_db: vec![38.5] },
+            CurveSample { views: 3, psnr_db: vec![25.9381, 26.0], grey_db: vec![24.5, 24.25] },
+            CurveSample { views: 100, psnr_db: vec![38.5], grey_db: vec![37.0] },
         ];
-        assert_eq!(samples_text(&samples), "3:25.9381/26.0000 100:38.5000");
-        assert_eq!(samples_from_text(&samples_text(&samples)), Some(samples));
-        assert_eq!(samples_from_text("3:25.9 5;31"), None);
+        let (black, grey) = (samples_text(&samples, over_black), samples_text(&samples, over_grey));
+        assert_eq!(black, "3:25.9381/26.0000 100:38.5000");
+        assert_eq!(grey, "3:24.5000/24.2500 100:37.0000");
+        assert_eq!(samples_from_text(&black, &grey), Some(samples));
+        assert_eq!(samples_from_text("3:25.9 5;31", "3:25.9 5:31"), None);
+        assert_eq!(samples_from_text("3:25.9 5:31", "3:25.9/25 5:31"), None);
+        assert_eq!(samples_from_text("3:25.9 5:31", "3:25.9 7:31"), None);
+        assert_eq!(samples_from_text("3:25.9 5:31", "3:25.9"), None);
     }
 }

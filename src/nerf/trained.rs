@@ -106,10 +106,19 @@ impl Nerf {
 
     /// PSNR of each view over [`Self::background`], dB.
     pub fn psnr_db(&self, views: &[PosedImage]) -> Vec<f64> {
-        let background = self.background();
+        let each = self.psnr_db_over([self.background()], views);
+        each.into_iter().map(|[psnr_db]| psnr_db).collect()
+    }
+
+    /// PSNR of each view over each of `backgrounds`, dB.
+    pub fn psnr_db_over<const N: usize>(
+        &self,
+        backgrounds: [[u8; 3]; N],
+        views: &[PosedImage],
+    ) -> Vec<[f64; N]> {
         let one = |v: &PosedImage| {
             let image = self.render(&v.camera, &v.world_from_camera);
-            psnr(&over(&image, background), &over(&v.image, background))
+            backgrounds.map(|background| psnr(&over(&image, background), &over(&v.image, background)))
         };
         views.iter().map(one).collect()
     }
