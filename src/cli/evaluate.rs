@@ -65,7 +65,7 @@ pub fn run(args: &Args) -> CliResult {
     let Table::Table1(args) = &args.table;
     let records = read_labels(&args.labels)?;
     let (held_out, known): (Vec<LabelRecord>, Vec<LabelRecord>) = records.into_iter().partition(is_held_out);
-    let labels: Vec<u32> = known.iter().filter_map(|record| record.reading.v_star).collect();
+    let labels: Vec<u32> = known.iter().filter_map(|record| record.reading.v_gain).collect();
     let statistics = Statistics::of(&labels)
         .ok_or_else(|| format!("{}: no label of a training object", args.labels.display()))?;
     let objects = ObjectLookup::new(&args.objects)?;
@@ -73,7 +73,7 @@ pub fn run(args: &Args) -> CliResult {
     let store = TrialStore::open(&args.out.join("trials.csv"))?;
     let work: Vec<(ObjectEntry, &LabelRecord)> = held_out
         .iter()
-        .filter(|record| record.reading.v_star.is_some())
+        .filter(|record| record.reading.v_gain.is_some())
         .filter_map(|record| Some((objects.get(&record.object)?, record)))
         .take(args.limit)
         .filter(|(_, record)| !store.is_finished(&record.object, record.draw))

@@ -81,7 +81,7 @@ pub fn reconstruct(
     predictor: &Predictor,
     nerf: &NerfSettings,
 ) -> Result<Trial, TrialError> {
-    let label = record.reading.v_star.ok_or(TrialError::NoLabel)?;
+    let label = record.reading.v_gain.ok_or(TrialError::NoLabel)?;
     let mesh = entry.load()?;
     let renderer = Renderer::new(&mesh.fitted(Point::origin(), record.radius_m));
     let predicted = predictor.predict(&initial_photos(&renderer))?.rounded;

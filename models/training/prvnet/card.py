@@ -28,7 +28,7 @@ def status_line(path: Path) -> str:
 
 
 def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path, crossval_csv: Path | None) -> str:
-    rows = labels.read(labels_path, inputs, config["statuses"].split(","), config.get("target", "v_star"))
+    rows = labels.read(labels_path, inputs, config["statuses"].split(","), config["target"])
     by_id = {row.id: row for row in rows}
     train, validation, test = ([by_id[id] for id in config["rows"][part]] for part in ("train", "validation", "test"))
     truth, groups = np.array([row.views for row in test]), [row.group for row in test]
@@ -50,7 +50,7 @@ def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path, cro
         f"Labels: {status_line(labels_path)}; used are {len(rows)} rows of {len({r.group for r in rows})} objects: "
         f"{len(train)} to train, {len(validation)} to choose by, {len(test)} held out.",
         "",
-        "v* (min, 10 %, 25 %, median, 75 %, 90 %, max): " + ", ".join(f"{q:.0f}" for q in quantiles) + ". "
+        f"{config['target']} (min, 10 %, 25 %, median, 75 %, 90 %, max): " + ", ".join(f"{q:.0f}" for q in quantiles) + ". "
         f"Mean standard deviation of a label: {np.mean([row.sigma for row in rows]):.1f} views.",
         "",
         "| held-out objects, three initial photos | L1, views [95 % interval] |",

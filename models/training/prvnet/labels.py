@@ -13,8 +13,9 @@ from .splits import group_of
 # What makes a row of labels.csv one of a kind, as text, so that no rounding can separate the two files.
 KEY_COLUMNS = ("object", "radius_m", "seed")
 
-# What can be predicted: the paper's definition, and how many views come near the object's own best.
-TARGETS = ("v_star", "v_near")
+# What can be predicted: where one more view gains too little (the label), how many views come near the object's own
+# best, and the paper's definition.
+TARGETS = ("v_gain", "v_near", "v_star")
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Row:
     """Standard deviation of `views`."""
 
 
-def read(labels: Path, inputs: Path, statuses=("ok",), target="v_star") -> list[Row]:
+def read(labels: Path, inputs: Path, statuses=("ok",), target="v_gain") -> list[Row]:
     """The rows that have a label of one of `statuses` and a full set of crops, ordered by id."""
     with open(inputs / "index.csv", newline="") as file:
         ids = {tuple(line[column] for column in KEY_COLUMNS): line["row"] for line in csv.DictReader(file)}

@@ -36,7 +36,7 @@ def arguments(argv=None):
     add("--size", type=int, default=224, help="side of the input images, pixels")
     add("--images", choices=("1-5", "3"), default="1-5", help="initial images of a training sample")
     add("--range", choices=("labels", "paper"), default="labels", help="the sigmoid's range")
-    add("--target", choices=labels.TARGETS, default="v_star", help="which label to learn")
+    add("--target", choices=labels.TARGETS, default="v_gain", help="which label to learn")
     add("--statuses", default="ok", help="label statuses to train on, by commas")
     add("--freeze", action=argparse.BooleanOptionalAction, default=None,
         help="leave the encoder as it is (default for encoders with ImageNet weights)")  # fmt: skip

@@ -5,7 +5,8 @@ import csv
 import numpy as np
 from PIL import Image
 
-COLUMNS = ("object", "name", "category", "licence", "radius_m", "seed", "status", "v_star", "v_star_sigma", "v_near", "v_near_sigma", "draw")
+COLUMNS = ("object", "name", "category", "licence", "radius_m", "seed", "status", "v_gain", "v_gain_sigma", "v_near",
+           "v_near_sigma", "v_star", "v_star_sigma", "draw")  # fmt: skip
 
 
 def make(folder, objects=40, size=64, seed=0):
@@ -22,7 +23,7 @@ def make(folder, objects=40, size=64, seed=0):
             cells = int(rng.integers(2, size // 3))
             status = "not_converged" if number % 10 == 9 else "ok"
             views = "" if number == 0 else round(15 + 30 * cells / (size // 3) + rng.normal(0, 1))
-            table.writerow((name, name, "", "CC0", radius, number, status, views, "1.50", views and views - 8, "1.00", 0))
+            table.writerow((name, name, "", "CC0", radius, number, status, views, "1.50", views and views - 8, "1.00", views and views + 9, "3.00", 0))
             index.writerow((f"row-{number}", name, radius, number))
             (inputs / f"row-{number}").mkdir()
             for k in range(5):
