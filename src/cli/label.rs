@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::label::measure::{LabelSettings, measure};
 use prv::label::protocol::{curve_design, seed_of};
-use prv::label::record::{over_black, over_grey, samples_text};
+use prv::label::record::{over_black, over_both, samples_text};
 use prv::label::store::LabelStore;
 use prv::nerf::NerfSettings;
 use prv::objects::{ObjectEntry, select_objects};
@@ -140,7 +140,7 @@ pub fn run(args: &Args) -> CliResult {
                             "v_star": reading.v_star, "v_star_sigma": reading.v_star_sigma,
                             "v_near": reading.v_near, "v_near_sigma": reading.v_near_sigma,
                             "rms_db": reading.rms_db, "psnr_db": samples_text(&record.samples, over_black),
-                            "psnr_grey_db": samples_text(&record.samples, over_grey), "cpu_s": record.cpu_s,
+                            "psnr_both_db": samples_text(&record.samples, over_both), "cpu_s": record.cpu_s,
                         });
                         println!("{line}");
                     }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::fit::FitError;
 use super::photograph::{Photographer, lattice, pose};
 use super::protocol::{
-    BLACK, GREY, MIN_COVERAGE, curve_design, radius_draws, seed_of, test_directions, training_directions,
+    BLACK, MIN_COVERAGE, WHITE, curve_design, radius_draws, seed_of, test_directions, training_directions,
 };
 use super::reading::{Thresholds, read_label};
 use super::record::{CurveSample, LabelRecord};
@@ -80,21 +80,20 @@ pub fn measure(
     let mut samples: Vec<CurveSample> = Vec::new();
     let mut done = 0;
     for (views, repeats) in design {
-        let (mut psnr_db, mut grey_db) = (Vec::new(), Vec::new());
+        let (mut psnr_db, mut both_db) = (Vec::new(), Vec::new());
         for k in 0..repeats {
             let chance = chance.wrapping_add((views + 1000 * k) as u64);
             let photos = photographer.take(&training_directions(views, chance)?);
             let nerf_settings = NerfSettings { seed: chance, ..settings.nerf };
             let nerf = train(&photos, &bounds, &nerf_settings, &mut |_| {})?;
-            let each = nerf.psnr_db_over([BLACK, GREY], &tests);
-            let mean =
-                |over: usize| each.iter().map(|over_each| over_each[over]).sum::<f64>() / each.len() as f64;
-            psnr_db.push(mean(0));
-            grey_db.push(mean(1));
+            let each = nerf.psnr_db_over([BLACK, WHITE], &tests);
+            let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / each.len() as f64;
+            psnr_db.push(mean(&mut each.iter().map(|&[black, _]| black)));
+            both_db.push(mean(&mut each.iter().map(|&[black, white]| together_db(black, white))));
             done += 1;
             progress(done, nerfs);
         }
-        samples.push(CurveSample { views, psnr_db, grey_db });
+        samples.push(CurveSample { views, psnr_db, both_db });
     }
     Ok(LabelRecord {
         object: entry.key.clone(),
@@ -109,6 +108,12 @@ pub fn measure(
         samples,
         cpu_s: (thread_cpu_time() - started).as_secs_f64(),
     })
+}
+
+/// PSNR of the mean of two squared errors, dB.
+fn together_db(a_db: f64, b_db: f64) -> f64 {
+    let error = |psnr_db: f64| 10f64.powf(-psnr_db / 10.0);
+    -10.0 * (0.5 * (error(a_db) + error(b_db))).log10()
 }
 
 /// The mesh about the origin at the first drawn radius at which it covers enough of the
@@ -159,5 +164,17 @@ fn thread_cpu_time() -> Duration {
     {
         static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
         START.get_or_init(std::time::Instant::now).elapsed()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::together_db;
+
+    #[test]
+    fn the_larger_of_two_errors_counts_most() {
+        assert!((together_db(30.0, 30.0) - 30.0).abs() < 1e-12);
+        // Half of a hundredth and half of nothing is a two-hundredth.
+        assert!((together_db(20.0, f64::INFINITY) - 23.0103).abs() < 1e-4);
     }
 }

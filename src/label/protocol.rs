@@ -22,8 +22,8 @@ pub const CEILING_VIEWS: usize = 100;
 pub const TEST_VIEWS: usize = 100;
 /// Background that the paper judges NeRFs over. Over it an object's outline shows only where the object is bright.
 pub const BLACK: [u8; 3] = [0; 3];
-/// Mid-grey, over which bright and dark objects have an outline alike.
-pub const GREY: [u8; 3] = [128; 3];
+/// The second background of our label: over black and white together every outline costs, whatever the object's colour.
+pub const WHITE: [u8; 3] = [255; 3];
 /// Side of a label image, pixels.
 pub const IMAGE_SIZE_PX: u32 = 128;
 /// Least share of a camera frame's pixels that the object must cover on average over the five

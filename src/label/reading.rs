@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use super::fit::{CurvePoint, FitError, Scheme, fit_curve, refit};
 use super::lognormal::{LogNormalCurve, MAX_VIEWS};
 use super::protocol::{CEILING_VIEWS, GAIN_DB, NEAR_DB, PAPER_ALPHA_DB};
-use super::record::{CurveSample, LabelStatus, Reading, curve_points, over_black, over_grey};
+use super::record::{CurveSample, LabelStatus, Reading, curve_points, over_black, over_both};
 use super::steady::nerf_sigma_db;
 
 /// Where on a curve a label is read.
@@ -39,7 +39,7 @@ pub fn read_label(samples: &[CurveSample], thresholds: Thresholds, seed: u64) ->
     let paper = curve_points(samples, over_black);
     let paper_curve = fit_curve(&paper, Scheme::Orthogonal)?.curve;
     let star = |curve: &LogNormalCurve| curve.required_views(thresholds.alpha_db);
-    let steady = curve_points(samples, over_grey);
+    let steady = curve_points(samples, over_both);
     let fit = fit_curve(&steady, Scheme::Steady)?;
     let gain = |curve: &LogNormalCurve| curve.required_views(thresholds.gain_db);
     let near = |curve: &LogNormalCurve| views_near_ceiling(curve, thresholds.near_db);
@@ -105,8 +105,8 @@ fn standard_deviation(values: impl ExactSizeIterator<Item = f64> + Clone) -> f64
 /// of a number to measure it.
 fn status(samples: &[CurveSample], v_gain: Option<u32>) -> LabelStatus {
     let Some(ceiling) = samples.iter().find(|s| s.views == CEILING_VIEWS) else { return LabelStatus::Ok };
-    let mean = |s: &CurveSample| over_grey(s).iter().sum::<f64>() / over_grey(s).len().max(1) as f64;
-    let variance = |s: &CurveSample| nerf_sigma_db(s.views as f64).powi(2) / over_grey(s).len().max(1) as f64;
+    let mean = |s: &CurveSample| over_both(s).iter().sum::<f64>() / over_both(s).len().max(1) as f64;
+    let variance = |s: &CurveSample| nerf_sigma_db(s.views as f64).powi(2) / over_both(s).len().max(1) as f64;
     let better = |s: &CurveSample| {
         s.views < CEILING_VIEWS
             && mean(s) > mean(ceiling) + BETTER_SIGMAS * (variance(s) + variance(ceiling)).sqrt()
@@ -134,7 +134,7 @@ mod tests {
             .into_iter()
             .map(|(views, n)| {
                 let psnr_db: Vec<f64> = (0..n).map(|_| noisy(views)).collect();
-                CurveSample { views, grey_db: psnr_db.clone(), psnr_db }
+                CurveSample { views, both_db: psnr_db.clone(), psnr_db }
             })
             .collect()
     }
@@ -170,7 +170,7 @@ mod tests {
         let mut samples = measured(3, 0.7);
         assert_eq!(read_label(&samples, Thresholds::default(), 0).unwrap().status, LabelStatus::Ok);
         let before_last = samples.len() - 2;
-        samples[before_last].grey_db.iter_mut().for_each(|p| *p += 1.5);
+        samples[before_last].both_db.iter_mut().for_each(|p| *p += 1.5);
         let reading = read_label(&samples, Thresholds::default(), 0).unwrap();
         assert_eq!(reading.status, LabelStatus::NotConverged);
     }

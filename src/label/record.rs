@@ -38,8 +38,8 @@ pub struct CurveSample {
     pub views: usize,
     /// Mean PSNR over the test views of each NeRF, dB, over black as in the paper.
     pub psnr_db: Vec<f64>,
-    /// The same over mid-grey.
-    pub grey_db: Vec<f64>,
+    /// The same with the squared errors over black and over white averaged.
+    pub both_db: Vec<f64>,
 }
 
 /// What a curve says.
@@ -115,7 +115,7 @@ pub const COLUMNS: [&str; 23] = [
     "width",
     "rms_db",
     "psnr_db",
-    "psnr_grey_db",
+    "psnr_both_db",
     "cpu_s",
 ];
 
@@ -144,7 +144,7 @@ impl LabelRecord {
             .chain([open_end(v_star), format!("{v_star_sigma:.2}")])
             .chain([v_near.to_string(), format!("{v_near_sigma:.2}")])
             .chain(numbers.map(|x| format!("{x:.5}")))
-            .chain([samples_text(&self.samples, over_black), samples_text(&self.samples, over_grey)])
+            .chain([samples_text(&self.samples, over_black), samples_text(&self.samples, over_both)])
             .chain([format!("{:.2}", self.cpu_s)])
             .collect()
     }
@@ -170,7 +170,7 @@ impl LabelRecord {
             width,
             rms_db,
             psnr_db,
-            psnr_grey_db,
+            psnr_both_db,
             cpu_s,
         ] = *cells;
         let number = |text: &str| text.parse::<f64>().ok();
@@ -203,7 +203,7 @@ impl LabelRecord {
             radius_m: number(&radius_m)?,
             seed: seed.parse().ok()?,
             reading,
-            samples: samples_from_text(psnr_db, psnr_grey_db)?,
+            samples: samples_from_text(psnr_db, psnr_both_db)?,
             cpu_s: number(cpu_s)?,
         })
     }
@@ -214,9 +214,9 @@ pub fn over_black(sample: &CurveSample) -> &[f64] {
     &sample.psnr_db
 }
 
-/// The PSNR over mid-grey of each NeRF of a sample, dB.
-pub fn over_grey(sample: &CurveSample) -> &[f64] {
-    &sample.grey_db
+/// The PSNR of each NeRF of a sample over black and white together, dB.
+pub fn over_both(sample: &CurveSample) -> &[f64] {
+    &sample.both_db
 }
 
 /// `3:25.9381/25.8012 5:31.9380/31.8755 ...`: views, then the PSNR of each NeRF.
@@ -228,24 +228,24 @@ pub fn samples_text(samples: &[CurveSample], judged: fn(&CurveSample) -> &[f64])
     samples.iter().map(sample).collect::<Vec<_>>().join(" ")
 }
 
-/// Reads what [`samples_text`] writes over black and over grey; `None` where a number is missing
+/// Reads what [`samples_text`] writes over black and over both; `None` where a number is missing
 /// or malformed, or the two do not belong to the same NeRFs.
-pub fn samples_from_text(black: &str, grey: &str) -> Option<Vec<CurveSample>> {
+pub fn samples_from_text(black: &str, both: &str) -> Option<Vec<CurveSample>> {
     let sample = |word: &str| {
         let (views, each) = word.split_once(':')?;
         let each = each.split('/').map(|x| x.parse().ok()).collect::<Option<Vec<f64>>>()?;
         Some((views.parse::<usize>().ok()?, each))
     };
-    let (black, grey) = (black.split_whitespace(), grey.split_whitespace());
-    if black.clone().count() != grey.clone().count() {
+    let (black, both) = (black.split_whitespace(), both.split_whitespace());
+    if black.clone().count() != both.clone().count() {
         return None;
     }
-    let both = |(black, grey): (&str, &str)| {
-        let ((views, psnr_db), (same_views, grey_db)) = (sample(black)?, sample(grey)?);
-        let same = views == same_views && psnr_db.len() == grey_db.len();
-        same.then_some(CurveSample { views, psnr_db, grey_db })
+    let joined = |(black, both): (&str, &str)| {
+        let ((views, psnr_db), (same_views, both_db)) = (sample(black)?, sample(both)?);
+        let same = views == same_views && psnr_db.len() == both_db.len();
+        same.then_some(CurveSample { views, psnr_db, both_db })
     };
-    black.zip(grey).map(both).collect()
+    black.zip(both).map(joined).collect()
 }
 
 /// The points a curve is fitted to: one a NeRF.
@@ -260,13 +260,13 @@ mod tests {
     #[test]
     fn samples_survive_their_text() {
         let samples = vec![
-            CurveSample { views: 3, psnr_db: vec![25.9381, 26.0], grey_db: vec![24.5, 24.25] },
-            CurveSample { views: 100, psnr_db: vec![38.5], grey_db: vec![37.0] },
+            CurveSample { views: 3, psnr_db: vec![25.9381, 26.0], both_db: vec![24.5, 24.25] },
+            CurveSample { views: 100, psnr_db: vec![38.5], both_db: vec![37.0] },
         ];
-        let (black, grey) = (samples_text(&samples, over_black), samples_text(&samples, over_grey));
+        let (black, both) = (samples_text(&samples, over_black), samples_text(&samples, over_both));
         assert_eq!(black, "3:25.9381/26.0000 100:38.5000");
-        assert_eq!(grey, "3:24.5000/24.2500 100:37.0000");
-        assert_eq!(samples_from_text(&black, &grey), Some(samples));
+        assert_eq!(both, "3:24.5000/24.2500 100:37.0000");
+        assert_eq!(samples_from_text(&black, &both), Some(samples));
         assert_eq!(samples_from_text("3:25.9 5;31", "3:25.9 5:31"), None);
         assert_eq!(samples_from_text("3:25.9 5:31", "3:25.9/25 5:31"), None);
         assert_eq!(samples_from_text("3:25.9 5:31", "3:25.9 7:31"), None);

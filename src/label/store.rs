@@ -169,7 +169,7 @@ mod tests {
                 curve: LogNormalCurve { y0: 12.0, amplitude: 20.0, x_c: 6.0, width: 0.9 },
                 rms_db: 0.2,
             },
-            samples: vec![CurveSample { views: 3, psnr_db: vec![25.0, 25.5], grey_db: vec![24.0, 24.5] }],
+            samples: vec![CurveSample { views: 3, psnr_db: vec![25.0, 25.5], both_db: vec![24.0, 24.5] }],
             cpu_s: 40.0,
         }
     }

@@ -37,7 +37,7 @@ def curve_of(line: dict, views: np.ndarray) -> np.ndarray:
 
 def samples_of(line: dict) -> tuple[list[int], list[float]]:
     """Views and PSNR (dB), one pair a NeRF."""
-    pairs = [(int(views), float(value)) for word in line["psnr_grey_db"].split() for views, _, values in [word.partition(":")] for value in values.split("/")]  # fmt: skip
+    pairs = [(int(views), float(value)) for word in line["psnr_both_db"].split() for views, _, values in [word.partition(":")] for value in values.split("/")]  # fmt: skip
     return [v for v, _ in pairs], [p for _, p in pairs]
 
 
@@ -73,7 +73,7 @@ def curves(lines: list[dict], path: Path):
         axis.set_xticks([5, 10, 20, 50, 100], ["5", "10", "20", "50", "100"])
         axis.minorticks_off()
     figure.supxlabel("views (dashed v_gain, dotted v_near)", fontsize=9)
-    figure.supylabel("PSNR over grey, dB", fontsize=9)
+    figure.supylabel("PSNR over black and white, dB", fontsize=9)
     save(figure, path)
 
 
