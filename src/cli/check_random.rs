@@ -38,12 +38,15 @@ struct Counts {
     skipped: BTreeMap<String, usize>,
     detours: usize,
     refused: usize,
+    /// Seed and reason of each refused request.
+    #[serde(default)]
+    refusals: Vec<(u64, String)>,
     /// Seed and the first finding of each plan with one.
     violations: Vec<(u64, String)>,
 }
 
 impl Run<'_> {
-    /// Runs what is not logged yet; whether no plan has a violation.
+    /// Runs what is not logged yet; whether every cell got a plan, and no plan has a violation.
     pub fn start(&self) -> Verdict {
         let mut total = Counts { first_seed: self.first, most_views: self.most_views, ..Counts::default() };
         let mut known = BTreeSet::new();
@@ -67,6 +70,9 @@ impl Run<'_> {
             for (seed, finding) in &counts.violations {
                 bar.suspend(|| eprintln!("seed {seed}: {finding}"));
             }
+            for (seed, reason) in &counts.refusals {
+                bar.suspend(|| eprintln!("seed {seed} refused: {reason}"));
+            }
             if let Some(path) = self.log {
                 let mut file = std::fs::OpenOptions::new().create(true).append(true).open(path)?;
                 writeln!(file, "{}", serde_json::to_string(&counts)?)?;
@@ -75,7 +81,7 @@ impl Run<'_> {
         }
         bar.finish_and_clear();
         total.print(self.json)?;
-        Ok(total.violations.is_empty())
+        Ok(total.violations.is_empty() && total.refusals.is_empty())
     }
 
     fn logged(&self) -> Result<Vec<Counts>, Box<dyn std::error::Error>> {
@@ -100,7 +106,10 @@ impl Run<'_> {
         for (seed, outcome) in outcomes {
             counts.planned += outcome.planned;
             counts.detours += outcome.detours;
-            counts.refused += usize::from(outcome.refused.is_some());
+            if let Some(reason) = outcome.refused {
+                counts.refused += 1;
+                counts.refusals.push((seed, reason));
+            }
             for (code, count) in outcome.skipped {
                 *counts.skipped.entry(code.to_owned()).or_insert(0) += count;
             }
@@ -121,6 +130,7 @@ impl Counts {
         self.planned += other.planned;
         self.detours += other.detours;
         self.refused += other.refused;
+        self.refusals.extend(other.refusals);
         for (code, count) in other.skipped {
             *self.skipped.entry(code).or_insert(0) += count;
         }
@@ -137,6 +147,7 @@ impl Counts {
             self.cells, self.planned, self.detours, self.refused
         );
         self.skipped.iter().for_each(|(code, count)| println!("{count} views skipped: {code}"));
+        self.refusals.iter().for_each(|(seed, reason)| println!("seed {seed} refused: {reason}"));
         self.violations.iter().for_each(|(seed, finding)| println!("seed {seed}: {finding}"));
         println!("{} plans with violations", self.violations.len());
         Ok(())

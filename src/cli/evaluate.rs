@@ -1,6 +1,6 @@
 //! `prv evaluate`: reproduces the paper's tables on held-out objects.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -70,6 +70,12 @@ pub fn run(args: &Args) -> CliResult {
         .ok_or_else(|| format!("{}: no label of a training object", args.labels.display()))?;
     let objects = ObjectLookup::new(&args.objects)?;
     std::fs::create_dir_all(&args.out)?;
+    let jobs = match args.jobs {
+        0 => std::thread::available_parallelism()?.get(),
+        jobs => jobs,
+    };
+    let predictor = Predictor::load(&model_bytes(args.model.as_deref())?, 1, jobs)?;
+    same_settings(&args.out.join("settings.json"), &predictor.info().sha256, &statistics)?;
     let store = TrialStore::open(&args.out.join("trials.csv"))?;
     let work: Vec<(ObjectEntry, &LabelRecord)> = held_out
         .iter()
@@ -78,11 +84,6 @@ pub fn run(args: &Args) -> CliResult {
         .take(args.limit)
         .filter(|(_, record)| !store.is_finished(&record.object, record.draw))
         .collect();
-    let jobs = match args.jobs {
-        0 => std::thread::available_parallelism()?.get(),
-        jobs => jobs,
-    };
-    let predictor = Predictor::load(&model_bytes(args.model.as_deref())?, 1, jobs)?;
     eprintln!(
         "{} held-out labels, {} objects to reconstruct, {} done",
         held_out.len(),
@@ -117,6 +118,25 @@ pub fn run(args: &Args) -> CliResult {
     outcomes.into_iter().collect::<Result<(), String>>()?;
     let store = store.into_inner().map_err(|e| e.to_string())?;
     report(args, &TableOne::of(store.trials()))
+}
+
+/// Writes what all trials of a folder have in common, or compares it with what is there.
+fn same_settings(path: &Path, model_sha256: &str, statistics: &Statistics) -> CliResult {
+    let Statistics { mode, median, mean } = statistics;
+    let settings = serde_json::json!({ "model": model_sha256, "mode": mode, "median": median, "mean": mean });
+    match std::fs::read_to_string(path) {
+        Ok(text) if serde_json::from_str::<serde_json::Value>(&text).is_ok_and(|known| known == settings) => {
+            Ok(())
+        }
+        Ok(_) => {
+            Err(format!("{}: trials of another model or other labels; give another --out", path.display())
+                .into())
+        }
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            Ok(std::fs::write(path, format!("{settings:#}\n"))?)
+        }
+        Err(error) => Err(format!("{}: {error}", path.display()).into()),
+    }
 }
 
 fn report(args: &TableOneArgs, table: &TableOne) -> CliResult {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use prv::label::protocol::{GAIN_DB, NEAR_DB, PAPER_ALPHA_DB};
 use prv::label::reading::{Thresholds, read_label};
+use prv::label::record::LabelRecord;
 use prv::label::store::{LabelStore, read_labels};
 
 use super::CliResult;
@@ -49,7 +50,10 @@ pub fn run(args: &Args) -> CliResult {
                 twice += 1;
                 continue;
             }
-            record.reading = read_label(&record.samples, thresholds, record.seed)?;
+            record.reading = read_label(&record.samples, thresholds, record.seed).map_err(|error| {
+                let LabelRecord { object, draw, repeat, .. } = &record;
+                format!("{}, {object}, size {draw}, measurement {repeat}: {error}", file.display())
+            })?;
             store.append(&record)?;
         }
     }

@@ -54,10 +54,12 @@ pub enum FitError {
 const LEAST_POINTS: usize = 5;
 
 /// A cost, and the Gauss-Newton matrix and gradient for reducing it over `[y0, amplitude, ln x_c, ln width]`.
-pub(super) struct Normal {
+pub(super) struct NormalEquations {
+    /// Sum of the squared residuals: of distances in views and dB, or standardised.
     pub cost: f64,
+    /// `J^T J` of the residuals' Jacobian.
     pub hessian: Matrix4<f64>,
-    /// Half the direction of steepest descent.
+    /// `-J^T r`: half of where the cost falls most steeply.
     pub gradient: Vector4<f64>,
 }
 
@@ -97,7 +99,7 @@ pub fn refit(points: &[CurvePoint], start: LogNormalCurve, scheme: Scheme) -> Cu
             continue;
         };
         let mut next = parameters + step;
-        // Widths outside this range are flat lines or steps, where the parameters mean nothing.
+        // Middles and widths outside these ranges are flat lines or steps, where the parameters mean nothing.
         next[2] = next[2].clamp(-3.0, 7.0);
         next[3] = next[3].clamp(-3.0, 2.0);
         let there = normal(&next);

@@ -48,9 +48,12 @@ impl LogNormalCurve {
     /// `C(v + 1) - C(v) < alpha_db` (paper, equation 1).
     ///
     /// The curve is S-shaped over v, so its first few differences may be small as
-    /// well; they are before the rise and do not count. `None` when one more view
-    /// still pays at [`MAX_VIEWS`].
+    /// well; they are before the rise and do not count. A curve that does not rise needs
+    /// no second view. `None` when one more view still pays at [`MAX_VIEWS`].
     pub fn required_views(&self, alpha_db: f64) -> Option<u32> {
+        if self.amplitude <= 0.0 {
+            return Some(1);
+        }
         let gain = |v: u32| self.value(f64::from(v + 1)) - self.value(f64::from(v));
         let steepest = (1..MAX_VIEWS).max_by(|a, b| gain(*a).total_cmp(&gain(*b)))?;
         (steepest..=MAX_VIEWS).find(|&v| gain(v) < alpha_db)
@@ -136,6 +139,14 @@ mod tests {
         assert!(curve.value(f64::from(v + 1)) - curve.value(f64::from(v)) < 0.02);
         assert!(curve.value(f64::from(v)) - curve.value(f64::from(v - 1)) >= 0.02);
         assert!(v > 12);
+    }
+
+    #[test]
+    fn a_curve_that_does_not_rise_needs_one_view() {
+        for amplitude in [0.0, -0.3, -20.0] {
+            let curve = LogNormalCurve { y0: 30.0, amplitude, x_c: 5.0, width: 1.0 };
+            assert_eq!(curve.required_views(0.05), Some(1));
+        }
     }
 
     #[test]

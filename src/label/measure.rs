@@ -36,7 +36,7 @@ pub enum LabelError {
 /// How labels are measured.
 #[derive(Clone, Debug)]
 pub struct LabelSettings {
-    /// Training of every NeRF; one budget for all view sets and objects, since v* moves with it.
+    /// Training of every NeRF; one budget for all view sets and objects, since labels move with it.
     pub nerf: NerfSettings,
     /// Which of the object's sizes: with its key it fixes the radius.
     pub draw: u64,
@@ -77,6 +77,7 @@ pub fn measure(
     let design = curve_design();
     let nerfs = design.iter().map(|(_, nerfs)| nerfs).sum();
     let bounds = Bounds { center: Point::origin(), half_extent_m: radius_m * 1.02 };
+    let best = best_db(tests.first().map_or(1, |view| view.image.width() * view.image.height()));
     let mut samples: Vec<CurveSample> = Vec::new();
     let mut done = 0;
     for (views, repeats) in design {
@@ -87,6 +88,7 @@ pub fn measure(
             let nerf_settings = NerfSettings { seed: chance, ..settings.nerf };
             let nerf = train(&photos, &bounds, &nerf_settings, &mut |_| {})?;
             let each = nerf.psnr_db_over([BLACK, WHITE], &tests);
+            let each: Vec<[f64; 2]> = each.into_iter().map(|over| over.map(|psnr| psnr.min(best))).collect();
             let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / each.len() as f64;
             psnr_db.push(mean(&mut each.iter().map(|&[black, _]| black)));
             both_db.push(mean(&mut each.iter().map(|&[black, white]| together_db(black, white))));
@@ -114,6 +116,12 @@ pub fn measure(
 fn together_db(a_db: f64, b_db: f64) -> f64 {
     let error = |psnr_db: f64| 10f64.powf(-psnr_db / 10.0);
     -10.0 * (0.5 * (error(a_db) + error(b_db))).log10()
+}
+
+/// PSNR of one step in one channel of one of the pixels, dB: a view without any error counts as this, not as
+/// infinitely good, or a single one would leave its object without a mean.
+fn best_db(pixels: u32) -> f64 {
+    10.0 * (255.0 * 255.0 * 3.0 * f64::from(pixels)).log10()
 }
 
 /// The mesh about the origin at the first drawn radius at which it covers enough of the
@@ -169,12 +177,24 @@ fn thread_cpu_time() -> Duration {
 
 #[cfg(test)]
 mod tests {
-    use super::together_db;
+    use image::{Rgb, RgbImage};
+
+    use super::{best_db, together_db};
+    use crate::imaging::psnr;
 
     #[test]
     fn the_larger_of_two_errors_counts_most() {
         assert!((together_db(30.0, 30.0) - 30.0).abs() < 1e-12);
         // Half of a hundredth and half of nothing is a two-hundredth.
         assert!((together_db(20.0, f64::INFINITY) - 23.0103).abs() < 1e-4);
+    }
+
+    #[test]
+    fn no_view_with_an_error_is_better_than_one_without() {
+        let whole = RgbImage::from_pixel(64, 64, Rgb([7; 3]));
+        let mut off = whole.clone();
+        off.put_pixel(3, 5, Rgb([7, 8, 7]));
+        assert!((psnr(&whole, &off) - best_db(64 * 64)).abs() < 1e-9);
+        assert!(psnr(&whole, &whole).min(best_db(64 * 64)).is_finite());
     }
 }

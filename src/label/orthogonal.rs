@@ -2,16 +2,16 @@
 //!
 //! Both axes carry unit weight (one view weighs as much as one dB), which is what
 //! the paper's authors' fit used. Each point's foot on the curve is found by
-//! Newton's method; the four parameters by Levenberg-Marquardt on the signed
+//! Gauss-Newton steps; the four parameters by Levenberg-Marquardt on the signed
 //! orthogonal distances (Boggs, Byrd and Schnabel 1987 in its reduced form).
 
 use nalgebra::{Matrix4, Vector4};
 
-use super::fit::{CurvePoint, Normal};
+use super::fit::{CurvePoint, NormalEquations};
 use super::lognormal::LogNormalCurve;
 
 /// Sum of squared orthogonal distances, and the Gauss-Newton matrix and gradient for reducing it.
-pub(super) fn orthogonal(points: &[CurvePoint], curve: &LogNormalCurve) -> Normal {
+pub(super) fn orthogonal(points: &[CurvePoint], curve: &LogNormalCurve) -> NormalEquations {
     let (mut cost, mut hessian, mut gradient) = (0.0, Matrix4::zeros(), Vector4::zeros());
     for &(x, y) in points {
         let foot = foot_on_curve(x, y, curve);
@@ -26,7 +26,7 @@ pub(super) fn orthogonal(points: &[CurvePoint], curve: &LogNormalCurve) -> Norma
         hessian += row * row.transpose();
         gradient += row * distance;
     }
-    Normal { cost, hessian, gradient }
+    NormalEquations { cost, hessian, gradient }
 }
 
 /// The views coordinate of the point on the curve that is nearest to (x, y).

@@ -6,12 +6,12 @@ use super::lognormal::LogNormalCurve;
 /// Whether a label can be trusted as the paper's protocol defines it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LabelStatus {
-    /// The curve flattens below the ceiling.
+    /// The curve flattens, and no smaller view set does better than the ceiling by more than noise.
     Ok,
     /// Some smaller view set did better than the ceiling of 100 views by more than the noise
     /// of the two (the authors drop objects with any better set).
     NotConverged,
-    /// One more view still pays at [`super::lognormal::MAX_VIEWS`] views.
+    /// One more view still pays at [`super::lognormal::MAX_VIEWS`] views, on the steady curve.
     NoPlateau,
 }
 
@@ -38,7 +38,7 @@ pub struct CurveSample {
     pub views: usize,
     /// Mean PSNR over the test views of each NeRF, dB, over black as in the paper.
     pub psnr_db: Vec<f64>,
-    /// The same with the squared errors over black and over white averaged.
+    /// The same with the squared errors over black and over white averaged, both backgrounds together.
     pub both_db: Vec<f64>,
 }
 

@@ -27,7 +27,7 @@ pub enum StoreError {
         line: usize,
     },
     /// Not a label file, or one of another protocol.
-    #[error("{path}: header is {found:?}, must be {expected:?}; give another --out")]
+    #[error("{path}: header is {found:?}, must be {expected:?}: labels of another protocol")]
     Header {
         /// The file.
         path: PathBuf,

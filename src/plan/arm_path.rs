@@ -146,12 +146,15 @@ fn motion_time(
         return Ok(Some(MotionTime { planned, by_distance: None, least_duration_s: None }));
     };
     let order: Vec<usize> = compared.order.iter().map(|index| view_of(*index)).collect();
-    let path_length_m = path_length(request, poses, &order)?;
-    Ok(Some(MotionTime {
-        planned,
-        by_distance: Some(MotionFigures { duration_s: compared.duration_s, path_length_m }),
-        least_duration_s: compared.least_duration_s,
-    }))
+    // The shortest order may lead to no view at all where another one leads to some.
+    let by_distance = match order.is_empty() {
+        true => None,
+        false => {
+            let path_length_m = path_length(request, poses, &order)?;
+            Some(MotionFigures { duration_s: compared.duration_s, path_length_m })
+        }
+    };
+    Ok(Some(MotionTime { planned, by_distance, least_duration_s: compared.least_duration_s }))
 }
 
 fn trajectory(motion: MotionPlan, view_of: impl Fn(usize) -> usize) -> Option<Trajectory> {

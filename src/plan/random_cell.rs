@@ -313,4 +313,14 @@ mod tests {
         // Without plans, skipped views and detours the assertions above would say little.
         assert!(planned > 2000 && skipped > 1000 && detours > 100);
     }
+
+    #[test]
+    fn a_cell_in_which_the_shortest_order_leads_to_no_view_and_the_fastest_to_some_is_planned() {
+        // Found by a run over 100,000 cells.
+        for seed in [5872, 38748] {
+            let outcome = RandomCells { most_views: 16 }.run(seed);
+            assert_eq!((outcome.refused, outcome.findings), (None, Vec::new()), "seed {seed}");
+            assert!(outcome.planned > 0, "seed {seed}");
+        }
+    }
 }

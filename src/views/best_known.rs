@@ -1,4 +1,5 @@
-//! The best separations known, from a search far longer than a request can wait for.
+//! The best separations known, from two rounds of a search that takes some seconds a set, longer than a request can
+//! wait for. The second round found at most 0.13 % more than the first.
 
 use super::Band;
 

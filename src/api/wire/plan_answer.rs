@@ -102,7 +102,8 @@ pub struct MotionFiguresJson {
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, ToSchema)]
 #[schema(as = ViewCount)]
 pub struct ViewCountJson {
-    /// The network's number, rounded; null without prediction.
+    /// The network's number, rounded: from here on one more view improves a NeRF by less than 0.05 dB; null without
+    /// prediction.
     pub predicted: Option<u32>,
     /// The network's number before rounding; null without prediction.
     pub raw: Option<f64>,

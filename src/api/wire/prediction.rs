@@ -30,7 +30,8 @@ pub struct PredictionRequest {
 #[derive(Clone, Debug, Serialize, ToSchema)]
 #[schema(as = Prediction)]
 pub struct PredictionAnswer {
-    /// Rounded.
+    /// Rounded: the number of views from which one more improves a NeRF by less than 0.05 dB
+    /// (models/MODEL_CARD.md tells how that is measured).
     pub predicted: u32,
     /// The network's number.
     pub raw: f64,
