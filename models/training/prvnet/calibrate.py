@@ -16,7 +16,7 @@ from . import INITIAL_IMAGES, MAX_IMAGES, novelty
 from .model import PRVNet
 from .sources import Bank, Photos
 from .splits import FOLDS, fold_of
-from .train import VALIDATION_VARIANTS, epoch_of, evaluate, trained_state, optimizer_of
+from .train import VALIDATION_VARIANTS, epoch_of, evaluate, optimizer_of, start, trained_state
 
 TURNS = 5
 # Epochs without a better one after which a network is taken as it was best: heads are at theirs within twenty.
@@ -29,7 +29,7 @@ def source_of(config, inputs: Path, bank: Path, rows, network):
     return Photos(inputs, rows, config["size"])
 
 
-def left_out_answers(config: dict, source, rows, turns: int = TURNS) -> np.ndarray:
+def left_out_answers(run: Path, config: dict, source, rows, turns: int = TURNS) -> np.ndarray:
     """[rows, shoots] answers to `rows`, each by a network of the same recipe that was not trained on its object.
 
     Of ten folds by object each network has two left out and one to choose by, as the run itself.
@@ -52,7 +52,7 @@ def left_out_answers(config: dict, source, rows, turns: int = TURNS) -> np.ndarr
             settings = {**config, "range": [low, max(int(max(views)), low + 1)]}
             args = argparse.Namespace(**settings)
             torch.manual_seed(config["seed"] + 1 + turn)
-            network = PRVNet(settings)
+            network = start(settings, run)
             network.start_at(float(np.median(views)))
             network.encoder.requires_grad_(not config["freeze"])
             optimizer, scheduler = optimizer_of(network, args, len(known))
@@ -83,7 +83,7 @@ def residuals(run: Path, config: dict, source, rows, turns: int = TURNS) -> np.n
             lines = list(csv.reader(file))[1:]
         if [(line[0], float(line[1])) for line in lines] == [(row.id, row.views) for row in rows]:
             return np.array([[float(row.views) - float(answer) for answer in line[2:]] for row, line in zip(rows, lines)])
-    answers = left_out_answers(config, source, rows, turns)
+    answers = left_out_answers(run, config, source, rows, turns)
     partial = path.with_suffix(".part")
     with open(partial, "w", newline="") as file:
         writer = csv.writer(file)

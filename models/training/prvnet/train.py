@@ -2,25 +2,34 @@
 
     python -m prvnet.train --labels models/labels.csv --inputs DIR --encoder efficientnet_lite0 --out runs/x
 
-The folder gets config.json, where.json, log.csv, last.pt (to resume) and best.pt (least validation L1).
+The folder gets config.json, where.json, log.csv, last.pt (to resume) and best.pt (least validation L1), and encoder.pt
+where the encoder starts from `prvnet.pretrain`'s weights.
 """
 
 import argparse
 import csv
 import json
 import math
+import time
 from pathlib import Path
 
 import numpy as np
 import torch
 from tqdm import tqdm
 
-from . import INITIAL_IMAGES, MAX_IMAGES, PAPER_RANGE, encoders, labels, metrics
+from . import INITIAL_IMAGES, MAX_IMAGES, PAPER_RANGE, encoder_weights, encoders, labels, metrics
 from .model import HEADS, PRVNet
 from .sources import Bank, Photos
 from .splits import split
 
 VALIDATION_VARIANTS = 6
+
+# Errors, views, below which the Huber loss is quadratic: about what two labels of one object differ by.
+HUBER_DELTA = 2.0
+
+# `--paper`: the paper's network, but for ImageNet weights, which no package index has.
+PAPER = {"encoder": "convnextv2_tiny", "freeze": False, "head": "paper", "heads": 1, "levels": "last", "images": "3",
+         "range": "paper", "target": "v_star"}  # fmt: skip
 
 
 def arguments(argv=None):
@@ -29,11 +38,13 @@ def arguments(argv=None):
     add("--labels", type=Path, required=True, help="labels.csv of `prv label`")
     add("--inputs", type=Path, required=True, help="folder of `prv inputs`")
     add("--out", type=Path, required=True, help="folder of this run")
+    add("--paper", action="store_true", help="the paper's network and label; other options still count")
     add("--encoder", choices=encoders.NAMES, default="efficientnet_lite0")
+    add("--encoder-weights", type=Path, help="encoder.pt of `prvnet.pretrain` to start from")
     add("--levels", choices=("last", "all"), default="all", help="pool the encoder's output or every stage's")
     add("--head", choices=tuple(HEADS), default="small")
     add("--heads", type=int, default=5, help="heads trained side by side and averaged")
-    add("--size", type=int, default=224, help="side of the input images, pixels")
+    add("--size", type=int, help="side of the input images, pixels (default: what the encoder was made for)")
     add("--images", choices=("1-5", "3"), default="1-5", help="initial images of a training sample")
     add("--range", choices=("labels", "paper"), default="labels", help="the sigmoid's range")
     add("--target", choices=labels.TARGETS, default="v_gain", help="which label to learn")
@@ -47,14 +58,22 @@ def arguments(argv=None):
     add("--lr", type=float, help="learning rate of the heads at the given batch (default 5e-4 frozen, else 10 x encoder)")
     add("--encoder-lr", type=float, default=1.5e-4, help="of the encoder, times batch / 256")
     add("--weight-decay", type=float, default=0.05)
+    add("--loss", choices=("l1", "huber"), default="l1")
     add("--weight-by-sigma", action="store_true", help="count uncertain labels less")
     add("--turn", type=int, default=0, help="which folds are held out (0 to 4)")
     add("--seed", type=int, default=0)
     add("--threads", type=int, default=2)
     add("--device", default="cuda" if torch.cuda.is_available() else "cpu")
     args = parser.parse_args(argv)
+    if args.paper:
+        parser.set_defaults(**PAPER)
+        args = parser.parse_args(argv)
+    has_weights = args.encoder in encoders.EFFICIENTNET_LITE
     if args.freeze is None:
-        args.freeze = args.encoder in encoders.EFFICIENTNET_LITE
+        args.freeze = has_weights
+    if args.freeze and not has_weights and args.encoder_weights is None:
+        parser.error(f"--freeze: {args.encoder} has no ImageNet weights; give --encoder-weights of prvnet.pretrain")
+    args.size = args.size or encoders.native_size(args.encoder)
     args.epochs = args.epochs or (150 if args.freeze else 60)
     args.bank = args.bank or args.inputs / ".features"
     if args.lr is None:
@@ -62,14 +81,15 @@ def arguments(argv=None):
     return args
 
 
-def configuration(args, train, validation, test) -> dict:
-    """Everything that fixes the run's result."""
+def configuration(args, train, validation, test, weights: dict | None) -> dict:
+    """Everything that fixes the run's result; `weights` is what `encoder_weights.read` gives."""
     views = [row.views for row in train]
     low, high = PAPER_RANGE if args.range == "paper" else (int(min(views)), int(max(views)))
     chosen = ("encoder", "levels", "head", "heads", "size", "images", "freeze", "variants", "epochs", "batch")
-    rates = ("lr", "encoder_lr", "weight_decay", "weight_by_sigma", "turn", "seed", "statuses", "target")
+    rates = ("lr", "encoder_lr", "weight_decay", "loss", "weight_by_sigma", "turn", "seed", "statuses", "target")
     return {
         **{key: getattr(args, key) for key in chosen + rates},
+        "encoder_weights": weights and weights["fingerprint"],
         "range": [low, max(high, low + 1)],
         "trained_on": len(train),
         "rows": {"train": ids(train), "validation": ids(validation), "test": ids(test)},
@@ -125,14 +145,17 @@ def epoch_of(network, source, rows, args, epoch, optimizer, scheduler, device) -
         if args.weight_by_sigma:
             weight = 1 / (3 + torch.tensor([row.sigma for row in part], dtype=torch.float32, device=device))
         answers = network(source.batch(items).to(device))
-        errors = (answers - target.clamp(low, high).unsqueeze(1)).abs().mean(1)
-        loss = (errors * weight).sum() / weight.sum()
+        errors = (answers - target.clamp(low, high).unsqueeze(1)).abs()
+        losses = errors
+        if args.loss == "huber":
+            losses = torch.where(errors < HUBER_DELTA, errors**2 / (2 * HUBER_DELTA), errors - HUBER_DELTA / 2)
+        loss = (losses.mean(1) * weight).sum() / weight.sum()
         optimizer.zero_grad(set_to_none=True)
         loss.backward()
         torch.nn.utils.clip_grad_norm_(network.parameters(), 20.0)
         optimizer.step()
         scheduler.step()
-        total += float(errors.detach().sum())
+        total += float(errors.detach().mean(1).sum())
     return total / len(rows)
 
 
@@ -151,8 +174,16 @@ def optimizer_of(network, args, count):
 
 
 def trained_state(network, config) -> dict:
-    """What is kept of a network: a frozen encoder is what the package gives, so only what was trained."""
+    """What is kept of a network: a frozen encoder is what it started from, so only what was trained."""
     return (network.heads if config["freeze"] else network).state_dict()
+
+
+def start(config: dict, run: Path) -> PRVNet:
+    """The network of `config` before its first step, with the run's own encoder.pt where it has one."""
+    network = PRVNet(config)
+    if config.get("encoder_weights"):
+        encoder_weights.load(network.encoder, config, run)
+    return network
 
 
 def train(args) -> dict:
@@ -163,7 +194,10 @@ def train(args) -> dict:
     train_rows, validation_rows, test_rows = parts
     if len(train_rows) < 2 or not validation_rows:
         raise SystemExit(f"{len(rows)} rows are too few to split into training and validation")
-    config = configuration(args, *parts)
+    weights = encoder_weights.read(args.encoder_weights) if args.encoder_weights else None
+    if weights:
+        encoder_weights.refuse_leaks(weights, args.encoder, validation_rows + test_rows)
+    config = configuration(args, *parts, weights)
     args.out.mkdir(parents=True, exist_ok=True)
     known = args.out / "config.json"
     if known.is_file() and json.loads(known.read_text()) != config:
@@ -172,17 +206,19 @@ def train(args) -> dict:
     # Beside the settings, since files may move without changing the run.
     where = {"labels": str(args.labels.resolve()), "inputs": str(args.inputs.resolve()), "bank": str(args.bank.resolve())}
     (args.out / "where.json").write_text(json.dumps(where))
+    if weights:
+        save(weights, args.out / encoder_weights.FILE)
 
     device = torch.device(args.device)
-    network = PRVNet(config).to(device)
+    network = start(config, args.out).to(device)
     median = float(np.median([row.views for row in train_rows]))
     network.start_at(median)
     if args.freeze:
         network.encoder.requires_grad_(False)
-        source = Bank(args.bank, args.inputs, rows, network, args.variants, device)
+        source = Bank(args.bank, args.inputs, train_rows + validation_rows, network, args.variants, device)
         torch.set_num_threads(1)  # the heads' matrices are too small to share
     else:
-        source = Photos(args.inputs, rows, args.size)
+        source = Photos(args.inputs, train_rows + validation_rows, args.size)
     optimizer, scheduler = optimizer_of(network, args, len(train_rows))
     load = network.heads.load_state_dict if args.freeze else network.load_state_dict
 
@@ -199,16 +235,18 @@ def train(args) -> dict:
 
     log = args.out / "log.csv"
     if first_epoch == 0 or not log.is_file():
-        log.write_text("epoch,train_l1,validation_l1,best\n")
+        log.write_text("epoch,train_l1,validation_l1,best,cpu_s\n")
     bar = tqdm(range(first_epoch, args.epochs), initial=first_epoch, total=args.epochs, unit="epoch")
     for epoch in bar:
+        begin = time.process_time()
         error = epoch_of(network, source, train_rows, args, epoch, optimizer, scheduler, device)
         validation = evaluate(network, source, validation_rows, device)
         if validation < best:
             best = validation
             save({"weights": trained_state(network, config), "config": config, "epoch": epoch + 1, "validation_l1": best}, args.out / "best.pt")
         with open(log, "a", newline="") as file:
-            csv.writer(file).writerow([epoch + 1, f"{error:.4f}", f"{validation:.4f}", f"{best:.4f}"])
+            cpu_s = time.process_time() - begin
+            csv.writer(file).writerow([epoch + 1, f"{error:.4f}", f"{validation:.4f}", f"{best:.4f}", f"{cpu_s:.2f}"])
         # Frozen epochs take less time than writing the state does.
         if not args.freeze or (epoch + 1) % 10 == 0 or epoch + 1 == args.epochs:
             state = {"optimizer": optimizer.state_dict(), "scheduler": scheduler.state_dict()}
@@ -226,8 +264,9 @@ def save(state, path: Path):
 def load_best(run: Path, device="cpu") -> PRVNet:
     """The network of a run's best.pt, ready to be used."""
     state = torch.load(run / "best.pt", map_location=device, weights_only=True)
-    network = PRVNet(state["config"])
-    (network.heads if state["config"]["freeze"] else network).load_state_dict(state["weights"])
+    config = state["config"]
+    network = start(config, run) if config["freeze"] else PRVNet(config, pretrained=False)
+    (network.heads if config["freeze"] else network).load_state_dict(state["weights"])
     return network.to(device).eval()
 
 
