@@ -1,6 +1,7 @@
 """labels.csv (written by `prv label`) joined with the crops (written by `prv inputs`)."""
 
 import csv
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -61,6 +62,20 @@ def read(labels: Path, inputs: Path, statuses=("ok",), target="v_gain") -> list[
         print(f"{without_crops} labelled rows have no crops in {inputs}; run `make inputs`")
     if not rows:
         raise SystemExit(f"{labels}: no row with status {' or '.join(statuses)} and crops in {inputs}")
+    return sorted(rows, key=lambda row: row.id)
+
+
+def photographed(inputs: Path) -> list[Row]:
+    """Every row with a full set of crops, labelled or not, ordered by id; `views` and `sigma` are NaN."""
+    with open(inputs / "index.csv", newline="") as file:
+        lines = list(csv.DictReader(file))
+    rows = [
+        Row(line["row"], line["object"], group_of(line["object"]), float(line["radius_m"]), math.nan, math.nan)
+        for line in lines
+        if all((inputs / line["row"] / f"{k}.png").is_file() for k in range(MAX_IMAGES))
+    ]
+    if not rows:
+        raise SystemExit(f"{inputs}: no row has crops; run `make inputs`")
     return sorted(rows, key=lambda row: row.id)
 
 
