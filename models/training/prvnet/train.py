@@ -209,6 +209,10 @@ def train(args) -> dict:
     if weights:
         save(weights, args.out / encoder_weights.FILE)
 
+    side = labels.crops(args.inputs, train_rows[0]).shape[1]
+    if side < args.size:
+        print(f"the crops in {args.inputs} have {side} pixels a side, fewer than the network's {args.size}: "
+              f"`prv inputs --size {args.size}` makes finer ones")  # fmt: skip
     device = torch.device(args.device)
     network = start(config, args.out).to(device)
     median = float(np.median([row.views for row in train_rows]))
