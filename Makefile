@@ -105,6 +105,8 @@ train: inputs train-env
 	cd models/training && .venv/bin/python -m prvnet.train --labels $(abspath $(LABELS)) --inputs $(abspath $(INPUTS)) \
 	  --encoder $(ENCODER) --statuses ok,not_converged --out $(abspath $(RUN))
 	cd models/training && .venv/bin/python -m prvnet.export --run $(abspath $(RUN)) --out $(abspath models/prvnet.onnx)
+	cd models/training && .venv/bin/python -m prvnet.parity --run $(abspath $(RUN)) --model $(abspath models/prvnet.onnx) \
+	  --inputs $(abspath $(INPUTS)) --golden $(abspath models/prvnet.golden.json)
 	cd models/training && .venv/bin/python -m prvnet.card --run $(abspath $(RUN)) --model $(abspath models/prvnet.onnx) \
 	  --repeats $(abspath $(REPEATS)) --card $(abspath models/MODEL_CARD.md)
 	$(MAKE) pictures

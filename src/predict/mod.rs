@@ -18,6 +18,8 @@ mod shipped;
 #[cfg(test)]
 mod crop_tests;
 #[cfg(test)]
+mod golden_tests;
+#[cfg(test)]
 mod predictor_tests;
 
 pub use crop::{CROP_HALF_SIZE_M, crop};
