@@ -48,7 +48,7 @@ pub(super) struct Effort {
 impl Effort {
     /// About a second for a hundred points.
     pub(super) const INTERACTIVE: Effort =
-        Effort { pair_evaluations: 350_000_000, min_starts: 4, max_starts: 300 };
+        Effort { pair_evaluations: 600_000_000, min_starts: 4, max_starts: 300 };
     /// Some seconds: for tables.
     pub(super) const THOROUGH: Effort =
         Effort { pair_evaluations: 700_000_000, min_starts: 20, max_starts: 800 };
