@@ -22,6 +22,8 @@ fn main() {
             plan(count, name, roll);
         }
     }
+    row("VAMP, one collision-free leg, median (published)", 0.035, "ms", None);
+    row("cuRobo, one collision-free motion on a GPU (published, 30 to 50)", 30.0, "ms", None);
     shapes();
     jerk_limited();
 }

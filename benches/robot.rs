@@ -51,6 +51,8 @@ fn main() {
         }
     });
     row("UR5e: 8 branches, each measured by forward kinematics", each(branches), "us", Some(3.0));
+    row("  ur-analytic-ik, the same (published)", 3.0, "us", None);
+    residuals(&ur5e);
     let inverse = median_time(RUNS, 1, || {
         for target in &targets[..BATCH] {
             black_box(ur5e.kinematics.inverse(black_box(target), &[]));
@@ -83,6 +85,20 @@ fn main() {
     }
     let bent = RobotModel::from_dh(&calibrated_ur5e(), DhConvention::Standard).expect("a sound table");
     numeric("UR5e, calibrated table", &bent);
+}
+
+/// The largest distance between a pose and that of any of its solutions.
+fn residuals(robot: &RobotModel) {
+    let (mut far_m, mut turned_rad) = (0.0f64, 0.0f64);
+    for target in poses(robot) {
+        for solution in robot.kinematics.inverse(&target, &[]).solutions {
+            let reached = robot.kinematics.forward(&solution);
+            far_m = far_m.max((reached.translation.vector - target.translation.vector).norm());
+            turned_rad = turned_rad.max(reached.rotation.angle_to(&target.rotation));
+        }
+    }
+    row("  largest residual of any solution, position", far_m * 1e12, "pm", Some(1000.0));
+    row("  largest residual of any solution, rotation", turned_rad * 1e12, "prad", Some(1000.0));
 }
 
 /// An industrial arm: parallel axes 2 and 3, a spherical wrist (lengths of Brandstoetter et al. 2014).
