@@ -3,6 +3,7 @@
 PYTHON    ?= python3
 JOBS      ?= $(shell nproc)
 OBJECTS   ?= objects
+MADE      ?= 'made:*/0..20'
 LABELS    ?= models/labels.csv
 REPEATS   ?= models/label_repeats.csv
 INPUTS    ?= models/training/data/inputs
@@ -80,13 +81,13 @@ $(OBJECTS)/.done:
 	rm -rf $(OBJECTS)/unpacked $(OBJECTS)/deb
 	touch $@
 
-## Labels objects; may be stopped and started again at any time, finished objects stay.
+## Labels the furniture and twenty objects of each made family, at two sizes; may be stopped and started again at any time, finished objects stay.
 label: $(OBJECTS)/.done build
-	target/release/prv label --objects $(OBJECTS) --out $(LABELS) --jobs $(JOBS) --resume
+	target/release/prv label --objects $(OBJECTS) $(MADE) --out $(LABELS) --sizes 2 --jobs $(JOBS) --resume
 
 ## Labels the first objects again with other seeds, turns and test views, to see how far labels scatter.
 label-repeats: $(OBJECTS)/.done build
-	target/release/prv label --objects $(OBJECTS) --out $(REPEATS) --repeat 1 --limit 40 --jobs $(JOBS) --resume
+	target/release/prv label --objects $(OBJECTS) $(MADE) --out $(REPEATS) --repeat 1 --limit 40 --jobs $(JOBS) --resume
 
 ## The initial photos of every labelled object, as the network sees them.
 inputs: $(OBJECTS)/.done build
