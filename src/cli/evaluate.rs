@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::evaluate::counts::Statistics;
@@ -17,7 +16,7 @@ use prv::nerf::NerfSettings;
 use prv::objects::{ObjectEntry, ObjectLookup};
 use prv::predict::{Predictor, model_bytes};
 
-use super::CliResult;
+use super::{CliResult, workers};
 
 /// Reproduce tables of the paper on objects the network has not seen.
 #[derive(clap::Args)]
@@ -70,10 +69,7 @@ pub fn run(args: &Args) -> CliResult {
         .ok_or_else(|| format!("{}: no label of a training object", args.labels.display()))?;
     let objects = ObjectLookup::new(&args.objects)?;
     std::fs::create_dir_all(&args.out)?;
-    let jobs = match args.jobs {
-        0 => std::thread::available_parallelism()?.get(),
-        jobs => jobs,
-    };
+    let jobs = workers::threads(args.jobs);
     let predictor = Predictor::load(&model_bytes(args.model.as_deref())?, 1, jobs)?;
     same_settings(&args.out.join("settings.json"), &predictor.info().sha256, &statistics)?;
     let store = TrialStore::open(&args.out.join("trials.csv"))?;
@@ -93,29 +89,20 @@ pub fn run(args: &Args) -> CliResult {
     let bar = ProgressBar::new(work.len() as u64).with_style(ProgressStyle::with_template(
         "{elapsed_precise} [{wide_bar}] {pos}/{len} objects, {eta_precise} left",
     )?);
-    let (next, store) = (AtomicUsize::new(0), Mutex::new(store));
-    let worker = || -> Result<(), String> {
-        while let Some((entry, record)) = work.get(next.fetch_add(1, Ordering::Relaxed)) {
-            match reconstruct(entry, record, &statistics, &predictor, &NerfSettings::label()) {
-                Ok(trial) => {
-                    let mut store = store.lock().map_err(|e| e.to_string())?;
-                    store.append(trial).map_err(|e| e.to_string())?;
-                }
-                Err(error) => bar.suspend(|| eprintln!("{}: {error}", record.object)),
+    let store = Mutex::new(store);
+    let outcome = workers::side_by_side(jobs, &work, |(entry, record)| {
+        match reconstruct(entry, record, &statistics, &predictor, &NerfSettings::label()) {
+            Ok(trial) => {
+                let mut store = store.lock().map_err(|e| e.to_string())?;
+                store.append(trial).map_err(|e| e.to_string())?;
             }
-            bar.inc(1);
+            Err(error) => bar.suspend(|| eprintln!("{}: {error}", record.object)),
         }
+        bar.inc(1);
         Ok(())
-    };
-    let outcomes: Vec<Result<(), String>> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(worker)).collect();
-        workers
-            .into_iter()
-            .map(|handle| handle.join().unwrap_or_else(|_| Err("a worker panicked".into())))
-            .collect()
     });
     bar.finish_and_clear();
-    outcomes.into_iter().collect::<Result<(), String>>()?;
+    outcome?;
     let store = store.into_inner().map_err(|e| e.to_string())?;
     report(args, &TableOne::of(store.trials()))
 }

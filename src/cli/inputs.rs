@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use image::RgbaImage;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -15,7 +14,7 @@ use prv::render::{RenderSettings, Renderer};
 use prv::views::{Band, ViewSpace, initial_views_five};
 use sha2::{Digest, Sha256};
 
-use super::CliResult;
+use super::{CliResult, workers};
 
 /// Distance of the initial views from the object's centre, metres (paper, section "Dataset Generation").
 const VIEW_RADIUS_M: f64 = 0.3;
@@ -64,32 +63,27 @@ pub fn run(args: &Args) -> CliResult {
     let bar = ProgressBar::new(rows.len() as u64).with_style(ProgressStyle::with_template(
         "{elapsed_precise} [{wide_bar}] {pos}/{len} objects, {eta_precise} left",
     )?);
-    let jobs = match args.jobs {
-        0 => std::thread::available_parallelism()?.get(),
-        jobs => jobs,
-    };
-    let (next, failures) = (AtomicUsize::new(0), Mutex::new(HashMap::new()));
-    let work = || {
-        while let Some(row) = rows.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let outcome = match objects.get(&row.key[0]) {
-                Some(entry) => photograph(&entry, row, args).map_err(|error| error.to_string()),
-                None => Err(format!("is not among the usable objects of {:?}", args.objects)),
-            };
-            if args.json {
-                println!(
-                    "{}",
-                    serde_json::json!({"row": row.id, "object": row.key[0], "error": outcome.as_ref().err()})
-                );
-            }
-            if let Err(reason) = outcome {
-                bar.suspend(|| eprintln!("{}: {reason}", row.key[0]));
-                failures.lock().unwrap_or_else(|e| e.into_inner()).insert(row.id.clone(), reason);
-            }
-            bar.inc(1);
+    let failures = Mutex::new(HashMap::new());
+    let outcome = workers::side_by_side(workers::threads(args.jobs), &rows, |row| {
+        let outcome = match objects.get(&row.key[0]) {
+            Some(entry) => photograph(&entry, row, args).map_err(|error| error.to_string()),
+            None => Err(format!("is not among the usable objects of {:?}", args.objects)),
+        };
+        if args.json {
+            println!(
+                "{}",
+                serde_json::json!({"row": row.id, "object": row.key[0], "error": outcome.as_ref().err()})
+            );
         }
-    };
-    std::thread::scope(|scope| (0..jobs).for_each(|_| drop(scope.spawn(work))));
+        if let Err(reason) = outcome {
+            bar.suspend(|| eprintln!("{}: {reason}", row.key[0]));
+            failures.lock().unwrap_or_else(|e| e.into_inner()).insert(row.id.clone(), reason);
+        }
+        bar.inc(1);
+        Ok(())
+    });
     bar.finish_and_clear();
+    outcome?;
     let failures = failures.into_inner().unwrap_or_else(|e| e.into_inner());
     write_index(&args.out, rows.iter().filter(|row| !failures.contains_key(&row.id)))?;
     eprintln!(

@@ -13,7 +13,7 @@ use prv::label::store::LabelStore;
 use prv::nerf::NerfSettings;
 use prv::objects::{ObjectEntry, select_objects};
 
-use super::CliResult;
+use super::{CliResult, workers};
 
 /// Labels objects with the number of views a NeRF of them needs; one CSV row an object.
 ///
@@ -117,51 +117,41 @@ pub fn run(args: &Args) -> CliResult {
     let bar = ProgressBar::new((work.len() * nerfs) as u64).with_style(ProgressStyle::with_template(
         "{elapsed_precise} [{wide_bar}] {pos}/{len} NeRFs, {eta_precise} left {msg}",
     )?);
-    let jobs = if args.jobs == 0 { std::thread::available_parallelism()?.get() } else { args.jobs };
     let store = Mutex::new(store);
-    let (next, failed) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let worker = || -> Result<(), String> {
-        while let Some(&(entry, draw)) = work.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let settings = LabelSettings { nerf: args.training.settings(), draw, repeat: args.repeat };
-            match measure(entry, &settings, &mut |_, _| bar.inc(1)) {
-                Ok(record) => {
-                    let mut store = store.lock().map_err(|e| e.to_string())?;
-                    store.append(&record).map_err(|e| e.to_string())?;
-                    let reading = &record.reading;
-                    bar.set_message(format!(
-                        "{} gain={:?} near={} v*={:?}",
-                        record.object, reading.v_gain, reading.v_near, reading.v_star
-                    ));
-                    if args.json {
-                        let line = serde_json::json!({
-                            "object": record.object, "draw": record.draw, "repeat": record.repeat,
-                            "radius_m": record.radius_m, "status": reading.status.word(),
-                            "v_gain": reading.v_gain, "v_gain_sigma": reading.v_gain_sigma,
-                            "v_star": reading.v_star, "v_star_sigma": reading.v_star_sigma,
-                            "v_near": reading.v_near, "v_near_sigma": reading.v_near_sigma,
-                            "rms_db": reading.rms_db, "psnr_db": samples_text(&record.samples, over_black),
-                            "psnr_both_db": samples_text(&record.samples, over_both), "cpu_s": record.cpu_s,
-                        });
-                        println!("{line}");
-                    }
+    let failed = AtomicUsize::new(0);
+    let outcome = workers::side_by_side(workers::threads(args.jobs), &work, |&(entry, draw)| {
+        let settings = LabelSettings { nerf: args.training.settings(), draw, repeat: args.repeat };
+        match measure(entry, &settings, &mut |_, _| bar.inc(1)) {
+            Ok(record) => {
+                let mut store = store.lock().map_err(|e| e.to_string())?;
+                store.append(&record).map_err(|e| e.to_string())?;
+                let reading = &record.reading;
+                bar.set_message(format!(
+                    "{} gain={:?} near={} v*={:?}",
+                    record.object, reading.v_gain, reading.v_near, reading.v_star
+                ));
+                if args.json {
+                    let line = serde_json::json!({
+                        "object": record.object, "draw": record.draw, "repeat": record.repeat,
+                        "radius_m": record.radius_m, "status": reading.status.word(),
+                        "v_gain": reading.v_gain, "v_gain_sigma": reading.v_gain_sigma,
+                        "v_star": reading.v_star, "v_star_sigma": reading.v_star_sigma,
+                        "v_near": reading.v_near, "v_near_sigma": reading.v_near_sigma,
+                        "rms_db": reading.rms_db, "psnr_db": samples_text(&record.samples, over_black),
+                        "psnr_both_db": samples_text(&record.samples, over_both), "cpu_s": record.cpu_s,
+                    });
+                    println!("{line}");
                 }
-                Err(error) => {
-                    failed.fetch_add(1, Ordering::Relaxed);
-                    bar.suspend(|| eprintln!("{}: {error}", entry.key));
-                }
+            }
+            Err(error) => {
+                failed.fetch_add(1, Ordering::Relaxed);
+                bar.suspend(|| eprintln!("{}: {error}", entry.key));
             }
         }
         Ok(())
-    };
-    let outcomes: Vec<Result<(), String>> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(worker)).collect();
-        workers
-            .into_iter()
-            .map(|handle| handle.join().unwrap_or_else(|_| Err("a worker panicked".into())))
-            .collect()
     });
     bar.finish();
-    outcomes.into_iter().collect::<Result<(), String>>()?;
+    outcome?;
     match failed.into_inner() {
         0 => Ok(()),
         n => Err(format!("{n} objects could not be labelled; see the lines above").into()),

@@ -22,6 +22,7 @@ mod robots;
 mod serve;
 mod views;
 mod views_search;
+mod workers;
 
 use std::process::ExitCode;
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use prv::api::{PlanRequestJson, Planner, parse_json};
 
-use super::CliResult;
+use super::{CliResult, workers};
 
 /// Plan the request in a file and print the plan: the same JSON as `POST /v1/plans`.
 #[derive(clap::Args)]
@@ -35,10 +35,7 @@ pub fn run(args: &Args) -> CliResult {
     } else {
         std::fs::read(&args.file).map_err(|error| format!("{}: {error}", args.file.display()))?
     };
-    let threads = match args.threads {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        threads => threads,
-    };
+    let threads = workers::threads(args.threads);
     let plan = || {
         let request: PlanRequestJson = parse_json(&bytes)?;
         Planner::load(args.model.as_deref(), threads, 1).plan(&request.into())

@@ -9,8 +9,8 @@ use prv::predict::{MAX_IMAGES, PhotoInput, PredictError, Predictor, model_bytes}
 
 use serde_json::json;
 
-use super::CliResult;
 use super::camera_flag::CameraFlag;
+use super::{CliResult, workers};
 
 /// Predict how many views an object needs, from one to five photos of it.
 ///
@@ -43,10 +43,7 @@ pub struct Args {
 
 /// Runs the prediction.
 pub fn run(args: &Args) -> CliResult {
-    let threads = match args.threads {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        threads => threads,
-    };
+    let threads = workers::threads(args.threads);
     let predictor = Predictor::load(&model_bytes(args.model.as_deref())?, threads, 1)?;
     let images = args.images.iter().map(|path| decode(path)).collect::<Result<Vec<_>, _>>()?;
     let named = |error| name_photo(error, &args.images);

@@ -7,7 +7,7 @@ use super::counts::{Method, Statistics};
 use crate::geometry::Point;
 use crate::imaging::Camera;
 use crate::label::photograph::{Photographer, pose};
-use crate::label::protocol::{VIEW_RADIUS_M, seed_of, test_directions, training_directions};
+use crate::label::protocol::{VIEW_RADIUS_M, nerf_bounds, seed_of, test_directions, training_directions};
 use crate::label::record::LabelRecord;
 use crate::nerf::{Bounds, NerfError, NerfSettings, train};
 use crate::objects::ObjectEntry;
@@ -129,7 +129,7 @@ impl Studio {
         let photographer = Photographer::new(renderer);
         let seed = seed_of(&record.object, record.draw ^ 0x7ab1_e001);
         let tests = photographer.take(&test_directions(seed)?);
-        let bounds = Bounds { center: Point::origin(), half_extent_m: record.radius_m * 1.02 };
+        let bounds = nerf_bounds(record.radius_m);
         let table_z_m = Some(-record.radius_m);
         let obstacle = Obstacle { center: Point::origin(), radius_m: record.radius_m, table_z_m };
         Ok(Studio { photographer, tests, bounds, obstacle, seed })

@@ -5,13 +5,14 @@ use std::time::Duration;
 use super::fit::FitError;
 use super::photograph::{Photographer, lattice, pose};
 use super::protocol::{
-    BLACK, MIN_COVERAGE, WHITE, curve_design, radius_draws, seed_of, test_directions, training_directions,
+    BLACK, MIN_COVERAGE, WHITE, curve_design, nerf_bounds, radius_draws, seed_of, test_directions,
+    training_directions,
 };
 use super::reading::{Thresholds, read_label};
 use super::record::{CurveSample, LabelRecord};
 use crate::geometry::{Direction, Point};
 use crate::imaging::{Camera, PosedImage};
-use crate::nerf::{Bounds, NerfError, NerfSettings, train};
+use crate::nerf::{NerfError, NerfSettings, train};
 use crate::objects::ObjectEntry;
 use crate::render::{Mesh, MeshError, RenderSettings, Renderer};
 use crate::views::{ViewsError, initial_views_five};
@@ -76,7 +77,7 @@ pub fn measure(
 
     let design = curve_design();
     let nerfs = design.iter().map(|(_, nerfs)| nerfs).sum();
-    let bounds = Bounds { center: Point::origin(), half_extent_m: radius_m * 1.02 };
+    let bounds = nerf_bounds(radius_m);
     let best = best_db(tests.first().map_or(1, |view| view.image.width() * view.image.height()));
     let mut samples: Vec<CurveSample> = Vec::new();
     let mut done = 0;

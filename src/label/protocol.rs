@@ -4,8 +4,9 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
 
-use crate::geometry::{Direction, Vector};
+use crate::geometry::{Direction, Point, Vector};
 use crate::imaging::Camera;
+use crate::nerf::Bounds;
 use crate::views::{Band, ViewsError, tammes};
 
 /// Distance of every view from the object's centre, metres (paper, section "Dataset Generation").
@@ -57,6 +58,11 @@ pub fn label_camera() -> Camera {
 pub fn seed_of(key: &str, run_seed: u64) -> u64 {
     let digest = Sha256::new().chain_update(run_seed.to_le_bytes()).chain_update(key.as_bytes()).finalize();
     digest.iter().take(8).fold(0, |seed, byte| (seed << 8) | u64::from(*byte))
+}
+
+/// The cube in which the NeRFs of an object about the origin are trained: a little more than its sphere.
+pub fn nerf_bounds(radius_m: f64) -> Bounds {
+    Bounds { center: Point::origin(), half_extent_m: radius_m * 1.02 }
 }
 
 /// The radii to try for an object, metres; the first that covers enough pixels is taken.

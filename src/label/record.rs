@@ -148,9 +148,7 @@ impl LabelRecord {
             .chain([format!("{:.2}", self.cpu_s)])
             .collect()
     }
-}
 
-impl LabelRecord {
     /// The record of a row's cells; `None` where they are not those of [`COLUMNS`].
     pub fn from_cells(cells: &[&str]) -> Option<LabelRecord> {
         let cells: &[&str; COLUMNS.len()] = cells.try_into().ok()?;

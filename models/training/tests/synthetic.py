@@ -5,6 +5,9 @@ import csv
 import numpy as np
 from PIL import Image
 
+# A network that takes such crops and is small enough for tests.
+CONFIG = {"encoder": "convnextv2_atto", "size": 64, "levels": "all", "head": "small", "heads": 2, "range": [13, 58]}
+
 COLUMNS = ("object", "name", "category", "licence", "radius_m", "seed", "status", "v_gain", "v_gain_sigma", "v_near",
            "v_near_sigma", "v_star", "v_star_sigma", "draw")  # fmt: skip
 

@@ -15,13 +15,11 @@ import synthetic
 from prvnet import card, export, model, train
 from prvnet.onnx_model import OnnxModel
 
-CONFIG = {"encoder": "convnextv2_atto", "size": 64, "levels": "all", "head": "small", "heads": 2, "range": [13, 58]}
-
 
 @pytest.fixture(scope="module")
 def network():
     torch.manual_seed(0)
-    return model.PRVNet(CONFIG).eval()
+    return model.PRVNet(synthetic.CONFIG).eval()
 
 
 def test_mean_and_variance_are_numpys():
@@ -43,7 +41,7 @@ def test_a_single_image_is_fed_twice(network):
 @pytest.mark.parametrize("head", ["small", "paper"])
 @pytest.mark.parametrize("encoder", ["efficientnet_lite0", "convnextv2_atto"])
 def test_training_starts_at_the_given_count_within_the_range(encoder, head):
-    network = model.PRVNet({**CONFIG, "encoder": encoder, "head": head}).eval()
+    network = model.PRVNet({**synthetic.CONFIG, "encoder": encoder, "head": head}).eval()
     network.start_at(30.0)
     assert abs(float(network(torch.rand(1, 3, 3, 64, 64)).detach().mean()) - 30) < 10
 

@@ -15,13 +15,11 @@ from prvnet import export, model, parity
 from prvnet.latency import graph_of
 from prvnet.onnx_model import OnnxModel
 
-CONFIG = {"encoder": "convnextv2_atto", "size": 64, "levels": "all", "head": "small", "heads": 2, "range": [13, 58]}
-
 
 @pytest.fixture(scope="module")
 def network():
     torch.manual_seed(0)
-    network = model.PRVNet(CONFIG).eval()
+    network = model.PRVNet(synthetic.CONFIG).eval()
     for head in network.heads:
         # An untrained head answers nearly the same to everything, which any other network would, too.
         torch.nn.init.normal_(head[-1].weight, std=3.0)
@@ -34,7 +32,7 @@ def test_onnx_runtime_answers_a_hundred_inputs_as_pytorch_does(network, tmp_path
     assert len(differences) == 100 and np.abs(differences).max() <= export.TOLERANCE
     for head in network.heads:
         torch.nn.init.normal_(head[-1].weight, std=3.0)
-    others = parity.compare_onnx(network, OnnxModel(graph_of(model.PRVNet(CONFIG).eval()), 1), tmp_path / "inputs", 10)
+    others = parity.compare_onnx(network, OnnxModel(graph_of(model.PRVNet(synthetic.CONFIG).eval()), 1), tmp_path / "inputs", 10)
     assert np.abs(others).max() > 100 * export.TOLERANCE
 
 
@@ -43,7 +41,7 @@ def test_a_wrong_camera_or_distance_would_show(network):
     photos = [parity.pattern(seed, width, height) for seed in range(3)]
 
     def answer(camera, distance_m):
-        return parity.answer_of(network, parity.images_of(photos, camera, distance_m, CONFIG["size"]))
+        return parity.answer_of(network, parity.images_of(photos, camera, distance_m, synthetic.CONFIG["size"]))
 
     right = answer(camera, 0.35)
     assert abs(right - answer(camera, 0.352)) > 10 * export.TOLERANCE
@@ -57,7 +55,7 @@ def test_golden_cases_say_all_that_their_answer_depends_on(network, tmp_path):
     case = first["cases"][1]
     photos = [parity.pattern(seed, case["width"], case["height"]) for seed in case["seeds"]]
     camera = parity.Camera(*map(float, case["camera"].split(",")))
-    images = parity.images_of(photos, camera, case["distance_m"], CONFIG["size"])
+    images = parity.images_of(photos, camera, case["distance_m"], synthetic.CONFIG["size"])
     assert parity.answer_of(network, images) == case["view_count"]
     # Values by integers that any language has: [(3 + 0) * 7 + 5 * 9 + (7 * 9 >> 4)] mod 256 and so on.
     assert parity.pattern(0, 320, 240)[9, 7].tolist() == [69, 92, 116, 0] and parity.pattern(0, 320, 240)[120, 160, 3] == 255
