@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use prv::evaluate::counts::Statistics;
-use prv::evaluate::held_out::is_held_out;
 use prv::evaluate::plot::bars;
 use prv::evaluate::store::TrialStore;
 use prv::evaluate::table_one::TableOne;
 use prv::evaluate::trial::reconstruct;
+use prv::evaluate::turn::Turn;
 use prv::label::record::LabelRecord;
 use prv::label::store::read_labels;
 use prv::nerf::NerfSettings;
@@ -42,9 +41,10 @@ struct TableOneArgs {
     /// Label file of `prv label`.
     #[arg(long, env = "PRV_LABELS", default_value = "models/labels.csv")]
     labels: PathBuf,
-    /// Another model than the one in the executable.
-    #[arg(long, env = "PRV_MODEL")]
-    model: Option<PathBuf>,
+    /// Another model than the one in the executable, or several of different turns: each is judged on the objects that
+    /// it holds out, five of `prvnet.compare --turns 5` on every object.
+    #[arg(long, env = "PRV_MODEL", num_args = 1..)]
+    model: Vec<PathBuf>,
     /// Folder to write to.
     #[arg(long, env = "PRV_OUT")]
     out: PathBuf,
@@ -63,35 +63,27 @@ struct TableOneArgs {
 pub fn run(args: &Args) -> CliResult {
     let Table::Table1(args) = &args.table;
     let records = read_labels(&args.labels)?;
-    let (held_out, known): (Vec<LabelRecord>, Vec<LabelRecord>) = records.into_iter().partition(is_held_out);
-    let labels: Vec<u32> = known.iter().filter_map(|record| record.reading.v_gain).collect();
-    let statistics = Statistics::of(&labels)
-        .ok_or_else(|| format!("{}: no label of a training object", args.labels.display()))?;
     let objects = ObjectLookup::new(&args.objects)?;
     std::fs::create_dir_all(&args.out)?;
     let jobs = workers::threads(args.jobs);
-    let predictor = Predictor::load(&model_bytes(args.model.as_deref())?, 1, jobs)?;
-    same_settings(&args.out.join("settings.json"), &predictor.info().sha256, &statistics)?;
+    let turns = turns(args, &records, jobs)?;
+    same_settings(&args.out.join("settings.json"), &turns)?;
     let store = TrialStore::open(&args.out.join("trials.csv"))?;
-    let work: Vec<(ObjectEntry, &LabelRecord)> = held_out
+    let work: Vec<(ObjectEntry, &LabelRecord, &Turn)> = records
         .iter()
         .filter(|record| record.reading.v_gain.is_some())
-        .filter_map(|record| Some((objects.get(&record.object)?, record)))
+        .filter_map(|record| Some((record, turns.iter().find(|turn| turn.holds_out(record))?)))
+        .filter_map(|(record, turn)| Some((objects.get(&record.object)?, record, turn)))
         .take(args.limit)
-        .filter(|(_, record)| !store.is_finished(&record.object, record.draw))
+        .filter(|(_, record, _)| !store.is_finished(&record.object, record.draw))
         .collect();
-    eprintln!(
-        "{} held-out labels, {} objects to reconstruct, {} done",
-        held_out.len(),
-        work.len(),
-        store.trials().len()
-    );
+    eprintln!("{} objects to reconstruct, {} done", work.len(), store.trials().len());
     let bar = ProgressBar::new(work.len() as u64).with_style(ProgressStyle::with_template(
         "{elapsed_precise} [{wide_bar}] {pos}/{len} objects, {eta_precise} left",
     )?);
     let store = Mutex::new(store);
-    let outcome = workers::side_by_side(jobs, &work, |(entry, record)| {
-        match reconstruct(entry, record, &statistics, &predictor, &NerfSettings::label()) {
+    let outcome = workers::side_by_side(jobs, &work, |(entry, record, turn)| {
+        match reconstruct(entry, record, turn, &NerfSettings::label()) {
             Ok(trial) => {
                 let mut store = store.lock().map_err(|e| e.to_string())?;
                 store.append(trial).map_err(|e| e.to_string())?;
@@ -107,10 +99,28 @@ pub fn run(args: &Args) -> CliResult {
     report(args, &TableOne::of(store.trials()))
 }
 
+/// The given models, no two of one turn, or the one in the executable.
+fn turns(args: &TableOneArgs, records: &[LabelRecord], jobs: usize) -> Result<Vec<Turn>, Box<dyn std::error::Error>> {
+    let paths: Vec<Option<&Path>> = match args.model.as_slice() {
+        [] => vec![None],
+        given => given.iter().map(|path| Some(path.as_path())).collect(),
+    };
+    let mut turns: Vec<Turn> = Vec::new();
+    for path in paths {
+        let predictor = Predictor::load(&model_bytes(path)?, 1, jobs)?;
+        let turn = predictor.info().turn;
+        if turns.iter().any(|known| known.predictor.info().turn == turn) {
+            return Err(format!("--model: two models hold out the objects of turn {turn}").into());
+        }
+        let turn = Turn::new(predictor, records);
+        turns.push(turn.ok_or_else(|| format!("{}: no label of a training object", args.labels.display()))?);
+    }
+    Ok(turns)
+}
+
 /// Writes what all trials of a folder have in common, or compares it with what is there.
-fn same_settings(path: &Path, model_sha256: &str, statistics: &Statistics) -> CliResult {
-    let Statistics { mode, median, mean } = statistics;
-    let settings = serde_json::json!({ "model": model_sha256, "mode": mode, "median": median, "mean": mean });
+fn same_settings(path: &Path, turns: &[Turn]) -> CliResult {
+    let settings: serde_json::Value = turns.iter().map(Turn::settings).collect();
     match std::fs::read_to_string(path) {
         Ok(text) if serde_json::from_str::<serde_json::Value>(&text).is_ok_and(|known| known == settings) => {
             Ok(())

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use super::counts::{Method, Statistics};
+use super::counts::Method;
+use super::turn::Turn;
 use crate::geometry::Point;
 use crate::imaging::Camera;
 use crate::label::photograph::{Photographer, pose};
@@ -12,7 +13,7 @@ use crate::label::record::LabelRecord;
 use crate::nerf::{Bounds, NerfError, NerfSettings, train};
 use crate::objects::ObjectEntry;
 use crate::order::{Obstacle, OrderError, order_points};
-use crate::predict::{PhotoInput, PredictError, Predictor};
+use crate::predict::{PhotoInput, PredictError};
 use crate::render::{MeshError, RenderSettings, Renderer};
 use crate::views::{ViewsError, initial_views};
 
@@ -77,19 +78,18 @@ pub enum TrialError {
 pub fn reconstruct(
     entry: &ObjectEntry,
     record: &LabelRecord,
-    statistics: &Statistics,
-    predictor: &Predictor,
+    turn: &Turn,
     nerf: &NerfSettings,
 ) -> Result<Trial, TrialError> {
     let label = record.reading.v_gain.ok_or(TrialError::NoLabel)?;
     let mesh = entry.load()?;
     let renderer = Renderer::new(&mesh.fitted(Point::origin(), record.radius_m));
-    let predicted = predictor.predict(&initial_photos(&renderer))?.rounded;
+    let predicted = turn.predictor.predict(&initial_photos(&renderer))?.rounded;
     let studio = Studio::new(renderer, record)?;
     let mut by_count = BTreeMap::new();
     let mut outcomes = Vec::new();
     for method in Method::ALL {
-        let views = statistics.count(method, label, predicted);
+        let views = turn.statistics.count(method, label, predicted);
         let (psnr_db, ssim, movement_m) = match by_count.get(&views) {
             Some(known) => *known,
             None => {

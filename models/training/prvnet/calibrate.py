@@ -12,7 +12,7 @@ import numpy as np
 import torch
 from tqdm import tqdm
 
-from . import INITIAL_IMAGES, MAX_IMAGES, novelty
+from . import INITIAL_IMAGES, MAX_IMAGES, novelty, ridge
 from .model import PRVNet
 from .sources import Bank, Photos
 from .splits import FOLDS, fold_of
@@ -36,7 +36,7 @@ def left_out_answers(run: Path, config: dict, source, rows, turns: int = TURNS) 
     """
     answers = np.full((len(rows), VALIDATION_VARIANTS), np.nan)
     fold = np.array([fold_of("interval " + row.group) for row in rows])
-    device, first = torch.device("cpu"), list(range(INITIAL_IMAGES))
+    first = list(range(INITIAL_IMAGES))
     with tqdm(unit="epoch", desc="left out") as bar:
         for turn in range(turns):
             tested = fold * turns // FOLDS == turn
@@ -50,29 +50,38 @@ def left_out_answers(run: Path, config: dict, source, rows, turns: int = TURNS) 
             views = [row.views for row in known]
             low = int(min(views))
             settings = {**config, "range": [low, max(int(max(views)), low + 1)]}
-            args = argparse.Namespace(**settings)
             torch.manual_seed(config["seed"] + 1 + turn)
             network = start(settings, run)
-            network.start_at(float(np.median(views)))
-            network.encoder.requires_grad_(not config["freeze"])
-            optimizer, scheduler = optimizer_of(network, args, len(known))
-            best, best_epoch, kept = math.inf, 0, None
-            for epoch in range(config["epochs"]):
-                epoch_of(network, source, known, args, epoch, optimizer, scheduler, device)
-                error = evaluate(network, source, validation or known, device)
-                if error < best:
-                    best, best_epoch = error, epoch
-                    kept = {key: value.clone() for key, value in trained_state(network, config).items()}
+            if config["head"] == "ridge":
+                ridge.fit(network, source, known + validation, settings)
                 bar.update()
-                if epoch - best_epoch >= PATIENCE:
-                    break
-            (network.heads if config["freeze"] else network).load_state_dict(kept)
+            else:
+                network.start_at(float(np.median(views)))
+                network.encoder.requires_grad_(not config["freeze"])
+                train_until_best(network, source, known, validation or known, settings, bar)
             network.eval()
             with torch.no_grad():
                 for index in out:
                     items = [(rows[index], variant, first) for variant in range(VALIDATION_VARIANTS)]
                     answers[index] = network(source.batch(items)).mean(1).numpy()
     return answers
+
+
+def train_until_best(network, source, known, validation, settings: dict, bar):
+    """Epochs as in a run, until none has been better on `validation` for a while; leaves the best one's weights."""
+    args, device = argparse.Namespace(**settings), torch.device("cpu")
+    optimizer, scheduler = optimizer_of(network, args, len(known))
+    best, best_epoch, kept = math.inf, 0, None
+    for epoch in range(settings["epochs"]):
+        epoch_of(network, source, known, args, epoch, optimizer, scheduler, device)
+        error = evaluate(network, source, validation, device)
+        if error < best:
+            best, best_epoch = error, epoch
+            kept = {key: value.clone() for key, value in trained_state(network, settings).items()}
+        bar.update()
+        if epoch - best_epoch >= PATIENCE:
+            break
+    (network.heads if settings["freeze"] else network).load_state_dict(kept)
 
 
 def residuals(run: Path, config: dict, source, rows, turns: int = TURNS) -> np.ndarray:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import INITIAL_IMAGES, MAX_IMAGES, baseline, crossval, interval, labels, metrics, novelty_card, repeatability
+from . import INITIAL_IMAGES, MAX_IMAGES, baseline, interval, labels, metrics, novelty_card, repeatability
 from .onnx_model import OnnxModel
 from .sources import Photos, all_subsets
 
@@ -27,7 +27,7 @@ def status_line(path: Path) -> str:
     return ", ".join(f"{count} `{status}`" for status, count in counts.most_common())
 
 
-def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path, crossval_csv: Path | None) -> str:
+def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path) -> str:
     rows = labels.read(labels_path, inputs, config["statuses"].split(","), config["target"])
     by_id = {row.id: row for row in rows}
     train, validation, test = ([by_id[id] for id in config["rows"][part]] for part in ("train", "validation", "test"))
@@ -72,10 +72,6 @@ def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path, cro
         answers = np.array([[model.predict(images[choice]) for choice in all_subsets(count)] for images in clean])
         lines.append(f"| {count} | {metrics.with_interval(np.abs(answers - truth[:, None]).mean(1), groups)} |")
     lines += ["", *coverage(model, truth, initial, shoots), "", *novelty_card.lines(model, clean, shoots_novelty)]
-    if crossval_csv is not None:
-        cv = crossval.read(crossval_csv)
-        lines += ["", f"| five runs, each of {len(cv)} rows held out once | L1, views [95 % interval] |", "|---|---|"]
-        lines += [f"| {name} | {figure} |" for name, figure in crossval.summary(cv)]
     return "\n".join(lines)
 
 
@@ -113,16 +109,18 @@ def main(argv=None):
     parser.add_argument("--model", type=Path, required=True)
     parser.add_argument("--labels", type=Path, help="default: what the run was trained on")
     parser.add_argument("--inputs", type=Path, help="default: what the run was trained on")
-    parser.add_argument("--crossval", type=Path, help="crossval.csv of prvnet.crossval")
+    parser.add_argument("--compare", type=Path, help="compare.md of prvnet.compare")
     parser.add_argument("--repeats", type=Path, help="labels of the same objects measured again")
     parser.add_argument("--card", type=Path, help="the file to update; without it the figures are only printed")
     args = parser.parse_args(argv)
     config = json.loads((args.run / "config.json").read_text())
     where = json.loads((args.run / "where.json").read_text())
     labels_path, inputs = args.labels or Path(where["labels"]), args.inputs or Path(where["inputs"])
-    text = figures(OnnxModel(args.model), config, labels_path, inputs, args.crossval)
+    text = figures(OnnxModel(args.model), config, labels_path, inputs)
     if args.repeats and args.repeats.is_file():
         text += "\n\n" + "\n".join(repeatability.lines(labels_path, args.repeats))
+    if args.compare and args.compare.is_file():
+        text += "\n\n" + args.compare.read_text().strip()
     print(text)
     if args.card:
         update(args.card, text)

@@ -123,6 +123,7 @@ def main(argv=None):
         "label_max": config["range"][1],
         "encoder": config["encoder"],
         "trained_on": config["trained_on"],
+        "turn": config["turn"],
         "held_out": len(test),
         "held_out_l1": round(metrics.l1(predicted, truth), 4),
         "best_constant_l1": round(constant, 4),

@@ -2,8 +2,8 @@
 
     python -m prvnet.train --labels models/labels.csv --inputs DIR --encoder efficientnet_lite0 --out runs/x
 
-The folder gets config.json, where.json, log.csv, last.pt (to resume) and best.pt (least validation L1), and encoder.pt
-where the encoder starts from `prvnet.pretrain`'s weights.
+The folder gets config.json, where.json, best.pt (least validation L1, or the ridge), and encoder.pt where the encoder
+starts from `prvnet.pretrain`'s weights; log.csv and last.pt (to resume) where there are epochs.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import numpy as np
 import torch
 from tqdm import tqdm
 
-from . import INITIAL_IMAGES, MAX_IMAGES, PAPER_RANGE, encoder_weights, encoders, labels, metrics
+from . import INITIAL_IMAGES, MAX_IMAGES, PAPER_RANGE, encoder_weights, encoders, labels, metrics, ridge
 from .model import HEADS, PRVNet
 from .sources import Bank, Photos
 from .splits import split
@@ -42,8 +42,8 @@ def arguments(argv=None):
     add("--encoder", choices=encoders.NAMES, default="efficientnet_lite0")
     add("--encoder-weights", type=Path, help="encoder.pt of `prvnet.pretrain` to start from")
     add("--levels", choices=("last", "all"), default="all", help="pool the encoder's output or every stage's")
-    add("--head", choices=tuple(HEADS), default="small")
-    add("--heads", type=int, default=5, help="heads trained side by side and averaged")
+    add("--head", choices=tuple(HEADS), help="default: ridge on a frozen encoder, else small")
+    add("--heads", type=int, help="heads trained side by side and averaged (default 5; a ridge has one)")
     add("--size", type=int, help="side of the input images, pixels (default: what the encoder was made for)")
     add("--images", choices=("1-5", "3"), default="1-5", help="initial images of a training sample")
     add("--range", choices=("labels", "paper"), default="labels", help="the sigmoid's range")
@@ -73,6 +73,12 @@ def arguments(argv=None):
         args.freeze = has_weights
     if args.freeze and not has_weights and args.encoder_weights is None:
         parser.error(f"--freeze: {args.encoder} has no ImageNet weights; give --encoder-weights of prvnet.pretrain")
+    args.head = args.head or ("ridge" if args.freeze else "small")
+    if args.head == "ridge" and not args.freeze:
+        parser.error("--head ridge: it is solved on the features of a frozen encoder; give --freeze")
+    if args.head == "ridge" and args.heads not in (None, 1):
+        parser.error("--heads: a ridge has one")
+    args.heads = args.heads or (1 if args.head == "ridge" else 5)
     args.size = args.size or encoders.native_size(args.encoder)
     args.epochs = args.epochs or (150 if args.freeze else 60)
     args.bank = args.bank or args.inputs / ".features"
@@ -91,7 +97,8 @@ def configuration(args, train, validation, test, weights: dict | None) -> dict:
         **{key: getattr(args, key) for key in chosen + rates},
         "encoder_weights": weights and weights["fingerprint"],
         "range": [low, max(high, low + 1)],
-        "trained_on": len(train),
+        # A ridge has no epoch to choose: it is fitted to the validation rows too once its error on them is known.
+        "trained_on": len(train) + (len(validation) if args.head == "ridge" else 0),
         "rows": {"train": ids(train), "validation": ids(validation), "test": ids(test)},
     }
 
@@ -223,6 +230,28 @@ def train(args) -> dict:
         torch.set_num_threads(1)  # the heads' matrices are too small to share
     else:
         source = Photos(args.inputs, train_rows + validation_rows, args.size)
+    constant = metrics.l1(median, [row.views for row in validation_rows])
+    print(f"{len(train_rows)} rows to train on, {len(validation_rows)} to choose by, {len(test_rows)} held out; "
+          f"labels {config['range']}, validation L1 of the training median {constant:.2f}")  # fmt: skip
+    by = solve if args.head == "ridge" else by_epochs
+    by(network, source, train_rows, validation_rows, args, config, device)
+    return config
+
+
+def solve(network, source, train_rows, validation_rows, args, config, device):
+    """A ridge's weights; nothing is chosen by the validation rows, so the network that stays is fitted to them too."""
+    if (args.out / "best.pt").is_file():
+        return
+    begin = time.process_time()
+    ridge.fit(network, source, train_rows, config)
+    validation = evaluate(network, source, validation_rows, device)
+    ridge.fit(network, source, train_rows + validation_rows, config)
+    print(f"solved in {time.process_time() - begin:.0f} CPU seconds, validation L1 {validation:.2f}")
+    save({"weights": trained_state(network, config), "config": config, "epoch": 1, "validation_l1": validation}, args.out / "best.pt")
+
+
+def by_epochs(network, source, train_rows, validation_rows, args, config, device):
+    """Gradient descent; keeps the network of the epoch with the least validation L1."""
     optimizer, scheduler = optimizer_of(network, args, len(train_rows))
     load = network.heads.load_state_dict if args.freeze else network.load_state_dict
 
@@ -233,9 +262,6 @@ def train(args) -> dict:
         optimizer.load_state_dict(state["optimizer"])
         scheduler.load_state_dict(state["scheduler"])
         best, first_epoch = state["best"], state["epoch"]
-    constant = metrics.l1(median, [row.views for row in validation_rows])
-    print(f"{len(train_rows)} rows to train on, {len(validation_rows)} to choose by, {len(test_rows)} held out; "
-          f"labels {config['range']}, validation L1 of the training median {constant:.2f}")  # fmt: skip
 
     log = args.out / "log.csv"
     if first_epoch == 0 or not log.is_file():
@@ -256,7 +282,6 @@ def train(args) -> dict:
             state = {"optimizer": optimizer.state_dict(), "scheduler": scheduler.state_dict()}
             save({"weights": trained_state(network, config), **state, "best": best, "epoch": epoch + 1}, last)
         bar.set_postfix(train=f"{error:.2f}", validation=f"{validation:.2f}", best=f"{best:.2f}")
-    return config
 
 
 def save(state, path: Path):

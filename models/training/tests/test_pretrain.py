@@ -86,7 +86,7 @@ def test_objects_held_out_or_chosen_by_are_not_seen(data, weights):
 
 def run_options(data, out, weights, *more):
     words = ["--labels", data / "labels.csv", "--inputs", data / "inputs", "--out", out, "--size", 64, "--encoder",
-             "convnextv2_atto", "--encoder-weights", weights, "--epochs", 1, "--variants", 2, "--heads", 2, "--device", "cpu",
+             "convnextv2_atto", "--encoder-weights", weights, "--epochs", 1, "--variants", 2, "--heads", 1, "--device", "cpu",
              "--threads", 1, *more]  # fmt: skip
     return train.arguments(list(map(str, words)))
 

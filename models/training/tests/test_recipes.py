@@ -21,8 +21,8 @@ def test_the_committed_recipes_can_be_read_and_the_slow_ones_wait():
 
 def test_options_become_flags_and_defaults_give_way():
     assert recipes.flags({"encoder_lr": 1e-4, "freeze": False, "paper": True}) == ["--encoder-lr", "0.0001", "--no-freeze", "--paper"]
-    lite = next(recipe for recipe in recipes.read(recipes.DEFAULT) if recipe.name == "lite1")
-    assert lite.options["epochs"] == 150 and lite.options["variants"] == 8
+    small = next(recipe for recipe in recipes.read(recipes.DEFAULT) if recipe.name == "lite0-small-heads")
+    assert small.options["epochs"] == 150 and small.options["variants"] == 8
 
 
 @pytest.mark.parametrize("entry", [
