@@ -3,18 +3,20 @@
 PYTHON    ?= python3
 JOBS      ?= $(shell nproc)
 OBJECTS   ?= objects
-MADE      ?= 'made:*/0..20'
+MADE      ?= 'made:*/0..24'
 LABELS    ?= models/labels.csv
 REPEATS   ?= models/label_repeats.csv
 INPUTS    ?= models/training/data/inputs
 RUN       ?= models/training/runs/prvnet
+TURNS     ?= models/training/runs/turns
+COMPARE   ?= models/training/runs/compare
 ENCODER   ?= efficientnet_lite0
 TRAIN_ENV := models/training/.venv
 # Any number: the cases that the property tests draw, the same in every run unless another is given.
 PROPTEST_RNG_SEED ?= 20
 SUDO      := $(if $(filter 0,$(shell id -u)),,sudo)
 
-.PHONY: run test system-packages build openapi views-table bench objects label label-repeats inputs train-env train table1 pictures test-training
+.PHONY: run test system-packages build openapi views-table bench objects label label-repeats inputs train-env train turns table1 compare pictures test-training
 
 ## Serves on 127.0.0.1:8080 with the model in models/.
 run: system-packages
@@ -81,7 +83,7 @@ $(OBJECTS)/.done:
 	rm -rf $(OBJECTS)/unpacked $(OBJECTS)/deb
 	touch $@
 
-## Labels the furniture and twenty objects of each made family, at two sizes; may be stopped and started again at any time, finished objects stay.
+## Labels the furniture and 24 objects of each made family, at two sizes; may be stopped and started again at any time, finished objects stay.
 label: $(OBJECTS)/.done build
 	target/release/prv label --objects $(OBJECTS) $(MADE) --out $(LABELS) --sizes 2 --jobs $(JOBS) --resume
 
@@ -112,9 +114,23 @@ train: inputs train-env
 	  --repeats $(abspath $(REPEATS)) --card $(abspath models/MODEL_CARD.md)
 	$(MAKE) pictures
 
-## The paper's Table I on the held-out objects: minutes an object, resumable.
-table1: $(OBJECTS)/.done build
-	target/release/prv evaluate table1 --objects $(OBJECTS) --labels $(LABELS) --out models/table1 --jobs $(JOBS)
+## Five networks like it that together hold every object out once.
+turns: inputs train-env
+	cd models/training && for turn in 0 1 2 3 4; do \
+	  .venv/bin/python -m prvnet.train --labels $(abspath $(LABELS)) --inputs $(abspath $(INPUTS)) --encoder $(ENCODER) \
+	    --statuses ok,not_converged --turn $$turn --out $(abspath $(TURNS))/$$turn && \
+	  .venv/bin/python -m prvnet.export --run $(abspath $(TURNS))/$$turn --out $(abspath $(TURNS))/$$turn.onnx || exit 1; \
+	done
+
+## The paper's Table I, every object by the network that holds it out; half a minute an object, resumable.
+table1: $(OBJECTS)/.done build turns
+	target/release/prv evaluate table1 --objects $(OBJECTS) --labels $(LABELS) \
+	  --model $(foreach turn,0 1 2 3 4,$(TURNS)/$(turn).onnx) --out models/table1 --jobs $(JOBS)
+
+## Encoders, image sizes, heads and simple methods against each other on the same labels; resumable.
+compare: inputs train-env
+	cd models/training && .venv/bin/python -m prvnet.compare --labels $(abspath $(LABELS)) --inputs $(abspath $(INPUTS)) \
+	  --statuses ok,not_converged --turns 5 --out $(abspath $(COMPARE))
 
 ## The model card's pictures.
 pictures: inputs train-env
