@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use prv::evaluate::candidate::Candidate;
 use prv::evaluate::plot::bars;
 use prv::evaluate::store::TrialStore;
 use prv::evaluate::table_one::TableOne;
 use prv::evaluate::trial::reconstruct;
-use prv::evaluate::turn::Turn;
 use prv::label::record::LabelRecord;
 use prv::label::store::read_labels;
 use prv::nerf::NerfSettings;
@@ -41,16 +42,16 @@ struct TableOneArgs {
     /// Label file of `prv label`.
     #[arg(long, env = "PRV_LABELS", default_value = "models/labels.csv")]
     labels: PathBuf,
-    /// Another model than the one in the executable, or several of different turns: each is judged on the objects that
-    /// it holds out, five of `prvnet.compare --turns 5` on every object.
+    /// Another model than the one in the executable, or several of different turns (`make turns`): each is judged on
+    /// the objects that it holds out, five on every object.
     #[arg(long, env = "PRV_MODEL", num_args = 1..)]
     model: Vec<PathBuf>,
     /// Folder to write to.
     #[arg(long, env = "PRV_OUT")]
     out: PathBuf,
-    /// At most this many objects.
-    #[arg(long, env = "PRV_LIMIT", default_value_t = 250)]
-    limit: usize,
+    /// At most this many objects, the first of the label file.
+    #[arg(long, env = "PRV_LIMIT")]
+    limit: Option<usize>,
     /// Objects side by side, one thread each; 0 for one a core.
     #[arg(long, env = "PRV_JOBS", default_value_t = 1)]
     jobs: usize,
@@ -66,29 +67,41 @@ pub fn run(args: &Args) -> CliResult {
     let objects = ObjectLookup::new(&args.objects)?;
     std::fs::create_dir_all(&args.out)?;
     let jobs = workers::threads(args.jobs);
-    let turns = turns(args, &records, jobs)?;
-    same_settings(&args.out.join("settings.json"), &turns)?;
+    let candidates = candidates(&args.model, &records)?;
+    same_settings(&args.out.join("settings.json"), &candidates)?;
     let store = TrialStore::open(&args.out.join("trials.csv"))?;
-    let work: Vec<(ObjectEntry, &LabelRecord, &Turn)> = records
+    let held_out: Vec<(&LabelRecord, &Candidate)> = records
         .iter()
         .filter(|record| record.reading.v_gain.is_some())
-        .filter_map(|record| Some((record, turns.iter().find(|turn| turn.holds_out(record))?)))
-        .filter_map(|(record, turn)| Some((objects.get(&record.object)?, record, turn)))
-        .take(args.limit)
-        .filter(|(_, record, _)| !store.is_finished(&record.object, record.draw))
+        .filter_map(|record| Some((record, candidates.iter().find(|candidate| candidate.holds_out(record))?)))
         .collect();
-    eprintln!("{} objects to reconstruct, {} done", work.len(), store.trials().len());
+    let found: Vec<(ObjectEntry, &LabelRecord, &Candidate)> = held_out
+        .iter()
+        .filter_map(|(record, candidate)| Some((objects.get(&record.object)?, *record, *candidate)))
+        .collect();
+    let missing = held_out.len() - found.len();
+    let chosen = found.iter().take(args.limit.unwrap_or(usize::MAX));
+    let work: Vec<_> = chosen.filter(|(_, r, _)| !store.is_finished(&r.object, r.draw)).collect();
+    eprintln!(
+        "{} labels held out, {missing} of them of objects not found; {} done, {} to reconstruct",
+        held_out.len(),
+        store.trials().len(),
+        work.len(),
+    );
     let bar = ProgressBar::new(work.len() as u64).with_style(ProgressStyle::with_template(
         "{elapsed_precise} [{wide_bar}] {pos}/{len} objects, {eta_precise} left",
     )?);
-    let store = Mutex::new(store);
-    let outcome = workers::side_by_side(jobs, &work, |(entry, record, turn)| {
-        match reconstruct(entry, record, turn, &NerfSettings::label()) {
+    let (store, failed) = (Mutex::new(store), AtomicUsize::new(0));
+    let outcome = workers::side_by_side(jobs, &work, |(entry, record, candidate)| {
+        match reconstruct(entry, record, candidate, &NerfSettings::label()) {
             Ok(trial) => {
                 let mut store = store.lock().map_err(|e| e.to_string())?;
                 store.append(trial).map_err(|e| e.to_string())?;
             }
-            Err(error) => bar.suspend(|| eprintln!("{}: {error}", record.object)),
+            Err(error) => {
+                failed.fetch_add(1, Ordering::Relaxed);
+                bar.suspend(|| eprintln!("{}: {error}", record.object));
+            }
         }
         bar.inc(1);
         Ok(())
@@ -96,31 +109,32 @@ pub fn run(args: &Args) -> CliResult {
     bar.finish_and_clear();
     outcome?;
     let store = store.into_inner().map_err(|e| e.to_string())?;
-    report(args, &TableOne::of(store.trials()))
+    report(args, &TableOne::of(store.trials()))?;
+    match failed.into_inner() {
+        0 => Ok(()),
+        failed => Err(format!("{failed} objects could not be reconstructed and are not in the table").into()),
+    }
 }
 
-/// The given models, no two of one turn, or the one in the executable.
-fn turns(args: &TableOneArgs, records: &[LabelRecord], jobs: usize) -> Result<Vec<Turn>, Box<dyn std::error::Error>> {
-    let paths: Vec<Option<&Path>> = match args.model.as_slice() {
-        [] => vec![None],
-        given => given.iter().map(|path| Some(path.as_path())).collect(),
-    };
-    let mut turns: Vec<Turn> = Vec::new();
-    for path in paths {
-        let predictor = Predictor::load(&model_bytes(path)?, 1, jobs)?;
-        let turn = predictor.info().turn;
-        if turns.iter().any(|known| known.predictor.info().turn == turn) {
-            return Err(format!("--model: two models hold out the objects of turn {turn}").into());
-        }
-        let turn = Turn::new(predictor, records);
-        turns.push(turn.ok_or_else(|| format!("{}: no label of a training object", args.labels.display()))?);
+/// The given models, or the one in the executable. A prediction takes far less than a reconstruction, so one session
+/// each is enough.
+fn candidates(
+    models: &[PathBuf],
+    records: &[LabelRecord],
+) -> Result<Vec<Candidate>, Box<dyn std::error::Error>> {
+    let mut predictors = Vec::new();
+    if models.is_empty() {
+        predictors.push(Predictor::load(&model_bytes(None)?, 1, 1)?);
     }
-    Ok(turns)
+    for path in models {
+        predictors.push(Predictor::load(&model_bytes(Some(path))?, 1, 1)?);
+    }
+    Ok(Candidate::all(predictors, records)?)
 }
 
 /// Writes what all trials of a folder have in common, or compares it with what is there.
-fn same_settings(path: &Path, turns: &[Turn]) -> CliResult {
-    let settings: serde_json::Value = turns.iter().map(Turn::settings).collect();
+fn same_settings(path: &Path, candidates: &[Candidate]) -> CliResult {
+    let settings: serde_json::Value = candidates.iter().map(Candidate::settings).collect();
     match std::fs::read_to_string(path) {
         Ok(text) if serde_json::from_str::<serde_json::Value>(&text).is_ok_and(|known| known == settings) => {
             Ok(())

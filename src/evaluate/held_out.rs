@@ -2,12 +2,9 @@
 
 use sha2::{Digest, Sha256};
 
-use crate::label::record::LabelRecord;
 use crate::objects::original_key;
 
 const FOLDS: u64 = 10;
-/// Networks of the turns 0 to 4 together hold every object out once (`prvnet.splits`); the shipped one is of turn 0.
-pub const TURNS: u32 = 5;
 
 /// The object's key without what marks a size or a variant of it.
 pub fn group_of(key: &str) -> &str {
@@ -20,9 +17,10 @@ pub fn fold_of(group: &str) -> u64 {
     digest.iter().take(8).fold(0, |number, byte| (number << 8) | u64::from(*byte)) % FOLDS
 }
 
-/// Whether networks of `turn` never see this label, neither to learn from nor to be chosen by.
-pub fn is_held_out(record: &LabelRecord, turn: u32) -> bool {
-    fold_of(group_of(&record.object)) / 2 == u64::from(turn)
+/// Whether networks of `turn` (0 to 4, which together hold every object out once) never see this object, neither to
+/// learn from nor to be chosen by.
+pub fn is_held_out(object: &str, turn: u32) -> bool {
+    fold_of(group_of(object)) / 2 == u64::from(turn)
 }
 
 #[cfg(test)]
@@ -33,6 +31,9 @@ mod tests {
     fn folds_are_those_of_the_training_package() {
         // models/training/tests/test_light.py holds the same numbers.
         assert_eq!(["mug", "chair", "lamp"].map(fold_of), [2, 7, 1]);
+        for (object, turn) in [("mug", 1), ("chair", 3), ("lamp", 0)] {
+            assert!((0..5).all(|other| is_held_out(object, other) == (other == turn)));
+        }
     }
 
     #[test]

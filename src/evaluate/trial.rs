@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
+use super::candidate::Candidate;
 use super::counts::Method;
-use super::turn::Turn;
 use crate::geometry::Point;
 use crate::imaging::Camera;
 use crate::label::photograph::{Photographer, pose};
@@ -78,18 +78,18 @@ pub enum TrialError {
 pub fn reconstruct(
     entry: &ObjectEntry,
     record: &LabelRecord,
-    turn: &Turn,
+    candidate: &Candidate,
     nerf: &NerfSettings,
 ) -> Result<Trial, TrialError> {
     let label = record.reading.v_gain.ok_or(TrialError::NoLabel)?;
     let mesh = entry.load()?;
     let renderer = Renderer::new(&mesh.fitted(Point::origin(), record.radius_m));
-    let predicted = turn.predictor.predict(&initial_photos(&renderer))?.rounded;
+    let predicted = candidate.predictor.predict(&initial_photos(&renderer))?.rounded;
     let studio = Studio::new(renderer, record)?;
     let mut by_count = BTreeMap::new();
     let mut outcomes = Vec::new();
     for method in Method::ALL {
-        let views = turn.statistics.count(method, label, predicted);
+        let views = candidate.statistics.count(method, label, predicted);
         let (psnr_db, ssim, movement_m) = match by_count.get(&views) {
             Some(known) => *known,
             None => {

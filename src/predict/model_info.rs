@@ -31,8 +31,8 @@ pub struct ModelInfo {
     pub encoder: String,
     /// How many labelled objects it was trained on.
     pub trained_on: u32,
-    /// Which objects were held out (`prvnet.splits`, `evaluate::held_out`): 0, unless every object is held out in turn.
-    pub turn: u32,
+    /// Which objects were held out (`prvnet.splits`, `evaluate::held_out`), if the file says so.
+    pub turn: Option<u32>,
     /// Mean absolute error on objects it was not trained on, views.
     pub held_out_l1: f64,
     /// Mean absolute error of the best constant on the same objects, views.
@@ -100,7 +100,7 @@ impl ModelInfo {
             label_max: count("label_max", label_min, 200)?,
             encoder: text("encoder")?,
             trained_on: count("trained_on", 1, u32::MAX)?,
-            turn: if metadata.custom("prv.turn").is_some() { count("turn", 0, 4)? } else { 0 },
+            turn: metadata.custom("prv.turn").is_some().then(|| count("turn", 0, 4)).transpose()?,
             held_out_l1: error_figure("held_out_l1")?,
             best_constant_l1: error_figure("best_constant_l1")?,
             interval,

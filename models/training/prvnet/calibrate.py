@@ -16,7 +16,7 @@ from . import INITIAL_IMAGES, MAX_IMAGES, novelty, ridge
 from .model import PRVNet
 from .sources import Bank, Photos
 from .splits import FOLDS, fold_of
-from .train import VALIDATION_VARIANTS, epoch_of, evaluate, optimizer_of, start, trained_state
+from .train import VALIDATION_VARIANTS, epoch_of, evaluate, fitted, optimizer_of, start, trained_state
 
 TURNS = 5
 # Epochs without a better one after which a network is taken as it was best: heads are at theirs within twenty.
@@ -47,13 +47,13 @@ def left_out_answers(run: Path, config: dict, source, rows, turns: int = TURNS) 
             out = np.flatnonzero(tested)
             if len(known) < 2 or not len(out):
                 raise SystemExit(f"{len(rows)} rows are too few to leave some out {turns} times")
-            views = [row.views for row in known]
+            views = [row.views for row in fitted(config, known, validation)]
             low = int(min(views))
             settings = {**config, "range": [low, max(int(max(views)), low + 1)]}
             torch.manual_seed(config["seed"] + 1 + turn)
             network = start(settings, run)
             if config["head"] == "ridge":
-                ridge.fit(network, source, known + validation, settings)
+                ridge.fit(network, source, fitted(config, known, validation), settings)
                 bar.update()
             else:
                 network.start_at(float(np.median(views)))

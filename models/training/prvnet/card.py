@@ -16,6 +16,7 @@ import numpy as np
 from . import INITIAL_IMAGES, MAX_IMAGES, baseline, interval, labels, metrics, novelty_card, repeatability
 from .onnx_model import OnnxModel
 from .sources import Photos, all_subsets
+from .train import fitted
 
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 SHOOTS = 8
@@ -43,12 +44,12 @@ def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path) -> 
         [[model.answer(photos.get(row, 1 + v)[:INITIAL_IMAGES].numpy()) for v in range(SHOOTS)] for row in test]
     )
     shoots, shoots_novelty = answers_to_shoots[..., 0], answers_to_shoots[..., 1]
-    known = np.array([row.views for row in train + validation])
+    known = np.array([row.views for row in fitted(config, train, validation)])
     all_views = np.array([row.views for row in rows])
     quantiles = np.quantile(all_views, [0, 0.1, 0.25, 0.5, 0.75, 0.9, 1])
     lines = [
         f"Labels: {status_line(labels_path)}; used are {len(rows)} rows of {len({r.group for r in rows})} objects: "
-        f"{len(train)} to train, {len(validation)} to choose by, {len(test)} held out.",
+        f"{config['trained_on']} to train, {len(train + validation) - config['trained_on']} to choose by, {len(test)} held out.",
         "",
         f"{config['target']} (min, 10 %, 25 %, median, 75 %, 90 %, max): " + ", ".join(f"{q:.0f}" for q in quantiles) + ". "
         f"Mean standard deviation of a label: {np.mean([row.sigma for row in rows]):.1f} views.",

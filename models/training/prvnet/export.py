@@ -18,7 +18,7 @@ from . import CROP_HALF_SIZE_M, FORMAT, INITIAL_IMAGES, MAX_IMAGES, calibrate, i
 from .model import Exported, twice_if_single
 from .onnx_model import OnnxModel
 from .sources import Photos
-from .train import load_best
+from .train import fitted, load_best
 
 TOLERANCE = 1e-4
 # Of the novelty, relatively: it is a difference of two sums of squares.
@@ -87,7 +87,8 @@ def main(argv=None):
     if not test:
         raise SystemExit("no rows are held out: there is no error to state in the model file")
 
-    known = train + [rows[id] for id in config["rows"]["validation"]]
+    validation = [rows[id] for id in config["rows"]["validation"]]
+    known = train + validation
     bank = args.bank or Path(where.get("bank", args.inputs / ".features"))
     source = calibrate.source_of(config, args.inputs, bank, known, network)
     begin = time.process_time()
@@ -127,7 +128,7 @@ def main(argv=None):
         "held_out": len(test),
         "held_out_l1": round(metrics.l1(predicted, truth), 4),
         "best_constant_l1": round(constant, 4),
-        "training_median_l1": round(metrics.l1(np.median([row.views for row in train]), truth), 4),
+        "training_median_l1": round(metrics.l1(np.median([row.views for row in fitted(config, train, validation)]), truth), 4),
         "interval_level": interval.LEVEL,
         "interval_low": round(low, 3),
         "interval_high": round(high, 3),

@@ -46,8 +46,8 @@ class SmallHead(nn.Sequential):
 class RidgeHead(nn.Linear):
     """One linear layer on standardised features that answers in views; `ridge` solves it.
 
-    A feature further from the middle than any of the objects trained on counts as far as LIMIT spreads: what is off
-    the scale is no reason for an answer off the scale.
+    A feature further than LIMIT spreads from its middle over the objects trained on counts as just that far: what is
+    off the scale is no reason for an answer off the scale.
     """
 
     LIMIT = 5.0
@@ -57,8 +57,11 @@ class RidgeHead(nn.Linear):
         self.register_buffer("middle", torch.zeros(dim))
         self.register_buffer("spread", torch.ones(dim))
 
+    def standardised(self, features):
+        return ((features - self.middle) / self.spread).clamp(-self.LIMIT, self.LIMIT)
+
     def forward(self, features):
-        return super().forward(((features - self.middle) / self.spread).clamp(-self.LIMIT, self.LIMIT))
+        return super().forward(self.standardised(features))
 
 
 HEADS = {"paper": PaperHead, "small": SmallHead, "ridge": RidgeHead}
@@ -79,9 +82,7 @@ class PRVNet(nn.Module):
         self.low, self.high = (float(bound) for bound in config["range"])
 
     def start_at(self, views: float):
-        """Sets the heads' last bias so that training starts at the best constant; a ridge is solved, not trained."""
-        if self.config["head"] == "ridge":
-            return
+        """Sets the heads' last bias so that training starts at the best constant."""
         p = min(max((views - self.low) / (self.high - self.low), 0.02), 0.98)
         for head in self.heads:
             nn.init.constant_(head[-1].bias, math.log(p / (1 - p)))

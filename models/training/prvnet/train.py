@@ -20,7 +20,7 @@ from tqdm import tqdm
 from . import INITIAL_IMAGES, MAX_IMAGES, PAPER_RANGE, encoder_weights, encoders, labels, metrics, ridge
 from .model import HEADS, PRVNet
 from .sources import Bank, Photos
-from .splits import split
+from .splits import TURNS, split
 
 VALIDATION_VARIANTS = 6
 
@@ -46,7 +46,7 @@ def arguments(argv=None):
     add("--heads", type=int, help="heads trained side by side and averaged (default 5; a ridge has one)")
     add("--size", type=int, help="side of the input images, pixels (default: what the encoder was made for)")
     add("--images", choices=("1-5", "3"), default="1-5", help="initial images of a training sample")
-    add("--range", choices=("labels", "paper"), default="labels", help="the sigmoid's range")
+    add("--range", choices=("labels", "paper"), default="labels", help="the range of answers")
     add("--target", choices=labels.TARGETS, default="v_gain", help="which label to learn")
     add("--statuses", default="ok", help="label statuses to train on, by commas")
     add("--freeze", action=argparse.BooleanOptionalAction, default=None,
@@ -60,7 +60,7 @@ def arguments(argv=None):
     add("--weight-decay", type=float, default=0.05)
     add("--loss", choices=("l1", "huber"), default="l1")
     add("--weight-by-sigma", action="store_true", help="count uncertain labels less")
-    add("--turn", type=int, default=0, help="which folds are held out (0 to 4)")
+    add("--turn", type=int, choices=range(TURNS), default=0, help="which folds are held out")
     add("--seed", type=int, default=0)
     add("--threads", type=int, default=2)
     add("--device", default="cuda" if torch.cuda.is_available() else "cpu")
@@ -78,6 +78,8 @@ def arguments(argv=None):
         parser.error("--head ridge: it is solved on the features of a frozen encoder; give --freeze")
     if args.head == "ridge" and args.heads not in (None, 1):
         parser.error("--heads: a ridge has one")
+    if args.head == "ridge" and (args.loss != "l1" or args.weight_by_sigma):
+        parser.error("--loss, --weight-by-sigma: a ridge is solved, not trained; give --head small")
     args.heads = args.heads or (1 if args.head == "ridge" else 5)
     args.size = args.size or encoders.native_size(args.encoder)
     args.epochs = args.epochs or (150 if args.freeze else 60)
@@ -89,18 +91,24 @@ def arguments(argv=None):
 
 def configuration(args, train, validation, test, weights: dict | None) -> dict:
     """Everything that fixes the run's result; `weights` is what `encoder_weights.read` gives."""
-    views = [row.views for row in train]
+    chosen = ("encoder", "levels", "head", "heads", "size", "images", "freeze", "variants", "turn", "seed", "statuses", "target")
+    of_epochs = ("epochs", "batch", "lr", "encoder_lr", "weight_decay", "loss", "weight_by_sigma")
+    settings = {key: getattr(args, key) for key in chosen + (() if args.head == "ridge" else of_epochs)}
+    views = [row.views for row in fitted(settings, train, validation)]
     low, high = PAPER_RANGE if args.range == "paper" else (int(min(views)), int(max(views)))
-    chosen = ("encoder", "levels", "head", "heads", "size", "images", "freeze", "variants", "epochs", "batch")
-    rates = ("lr", "encoder_lr", "weight_decay", "loss", "weight_by_sigma", "turn", "seed", "statuses", "target")
     return {
-        **{key: getattr(args, key) for key in chosen + rates},
+        **settings,
         "encoder_weights": weights and weights["fingerprint"],
         "range": [low, max(high, low + 1)],
-        # A ridge has no epoch to choose: it is fitted to the validation rows too once its error on them is known.
-        "trained_on": len(train) + (len(validation) if args.head == "ridge" else 0),
+        "trained_on": len(views),
         "rows": {"train": ids(train), "validation": ids(validation), "test": ids(test)},
     }
+
+
+def fitted(config: dict, train, validation) -> list:
+    """The rows that a network's weights come from. A ridge has no epoch to choose: once its error on the validation rows
+    is known it is fitted to them too."""
+    return train + validation if config["head"] == "ridge" else train
 
 
 def ids(rows):
@@ -223,7 +231,6 @@ def train(args) -> dict:
     device = torch.device(args.device)
     network = start(config, args.out).to(device)
     median = float(np.median([row.views for row in train_rows]))
-    network.start_at(median)
     if args.freeze:
         network.encoder.requires_grad_(False)
         source = Bank(args.bank, args.inputs, train_rows + validation_rows, network, args.variants, device)
@@ -239,19 +246,20 @@ def train(args) -> dict:
 
 
 def solve(network, source, train_rows, validation_rows, args, config, device):
-    """A ridge's weights; nothing is chosen by the validation rows, so the network that stays is fitted to them too."""
+    """A ridge's weights, fitted twice: for its error on the validation rows, and for good."""
     if (args.out / "best.pt").is_file():
         return
     begin = time.process_time()
     ridge.fit(network, source, train_rows, config)
     validation = evaluate(network, source, validation_rows, device)
-    ridge.fit(network, source, train_rows + validation_rows, config)
+    ridge.fit(network, source, fitted(config, train_rows, validation_rows), config)
     print(f"solved in {time.process_time() - begin:.0f} CPU seconds, validation L1 {validation:.2f}")
     save({"weights": trained_state(network, config), "config": config, "epoch": 1, "validation_l1": validation}, args.out / "best.pt")
 
 
 def by_epochs(network, source, train_rows, validation_rows, args, config, device):
     """Gradient descent; keeps the network of the epoch with the least validation L1."""
+    network.start_at(float(np.median([row.views for row in train_rows])))
     optimizer, scheduler = optimizer_of(network, args, len(train_rows))
     load = network.heads.load_state_dict if args.freeze else network.load_state_dict
 

@@ -2,6 +2,7 @@
 
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -52,6 +53,12 @@ def test_made_objects_of_one_family_are_different_objects():
 
 def test_folds_are_the_same_on_every_machine():
     assert [splits.fold_of(name) for name in ("mug", "chair", "lamp")] == [2, 7, 1]
+
+
+def test_five_turns_hold_every_object_out_once():
+    rows = [SimpleNamespace(group=name) for name in ("mug", "chair", "lamp")]
+    held_out = [[row.group for row in splits.split(rows, turn)[2]] for turn in range(splits.TURNS)]
+    assert held_out == [["lamp"], ["mug"], [], ["chair"], []]
 
 
 def test_every_row_is_held_out_exactly_once_in_five_turns(data):

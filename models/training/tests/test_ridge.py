@@ -18,8 +18,8 @@ from prvnet import labels, model, ridge
 class Features:
     """Stands in for a bank: one feature tells the label, the others are of the object or of the shoot alone."""
 
-    def __init__(self, rows, dim=40, photos=5):
-        rng = np.random.default_rng(0)
+    def __init__(self, rows, dim, photos=5):
+        rng, self.dim = np.random.default_rng(0), dim
         self.of = {row.id: rng.normal(size=dim) for row in rows}
         self.noise = rng.normal(size=(len(rows), 8, photos, dim)) * np.linspace(0, 2, dim)
         self.number = {row.id: k for k, row in enumerate(rows)}
@@ -38,8 +38,8 @@ def rows_of(count):
 
 def answers(source, known, unseen):
     network = model.PRVNet({**synthetic.CONFIG, "head": "ridge", "heads": 1, "range": [-100, 100]})
-    network.heads[0] = model.RidgeHead(80)
-    ridge.fit(network, source, known, {"variants": 4, "seed": 0})
+    network.heads[0] = model.RidgeHead(2 * source.dim)
+    ridge.fit(network, source, known, {"variants": 4, "seed": 0, "images": "1-5"})
     with torch.no_grad():
         return network(torch.cat([source.batch([(row, 0, [0, 1, 2])]) for row in unseen]))[:, 0].numpy()
 
@@ -47,7 +47,7 @@ def answers(source, known, unseen):
 def test_it_predicts_objects_it_has_not_seen_and_follows_no_noise():
     rows = rows_of(400)
     truth = np.array([row.views for row in rows[300:]])
-    errors = np.abs(answers(Features(rows), rows[:300], rows[300:]) - truth)
+    errors = np.abs(answers(Features(rows, 40), rows[:300], rows[300:]) - truth)
     assert errors.mean() < 0.3 * np.abs(np.median(truth) - truth).mean()
 
 
@@ -55,7 +55,7 @@ def test_labels_that_nothing_tells_get_their_mean():
     rows = rows_of(200)
     shuffled = np.random.default_rng(2).permutation([row.views for row in rows])
     known = [replace(row, views=float(views)) for row, views in zip(rows, shuffled)]
-    off = np.abs(answers(Features(rows), known[:150], known[150:]) - shuffled[:150].mean())
+    off = np.abs(answers(Features(rows, 2000), known[:150], known[150:]) - shuffled[:150].mean())
     assert off.mean() < 0.5 * shuffled.std()
 
 
