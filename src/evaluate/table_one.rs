@@ -123,7 +123,7 @@ impl TableOne {
                 .map(|(k, cell)| {
                     let better = prvnet.is_some_and(|p| p.cells[k].mean < cell.mean);
                     let star = better && cell.p_value.is_some_and(|p| p < SIGNIFICANT);
-                    let p = cell.p_value.map_or_else(String::new, |p| format!(" (p {p:.3})"));
+                    let p = cell.p_value.map_or_else(String::new, |p| format!(" ({})", p_text(p)));
                     let d = digits[k];
                     format!("{:.d$} ± {:.d$}{}{p}", cell.mean, cell.deviation, if star { "*" } else { "" })
                 })
@@ -143,6 +143,11 @@ fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
     let mean = values.iter().sum::<f64>() / n;
     let squares = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
     (mean, (squares / (n - 1.0).max(1.0)).sqrt())
+}
+
+/// No p-value is zero.
+fn p_text(p: f64) -> String {
+    if p < 0.0005 { "p < 0.001".to_owned() } else { format!("p {p:.3}") }
 }
 
 #[cfg(test)]
@@ -176,6 +181,7 @@ mod tests {
         assert_eq!(row(Method::PrvNet).views, (21, 32.0, 43));
         let text = table.markdown();
         assert!(text.contains("| Mode | 30 | 0.300 ± "), "{text}");
-        assert!(text.contains("* (p 0.0"), "{text}");
+        assert!(text.contains("* (p"), "{text}");
+        assert_eq!([0.0, 0.0004, 0.0006, 0.2].map(p_text), ["p < 0.001", "p < 0.001", "p 0.001", "p 0.200"]);
     }
 }
