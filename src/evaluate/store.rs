@@ -79,9 +79,13 @@ impl TrialStore {
     /// [`TrialStoreError::Io`].
     pub fn append(&mut self, trial: Trial) -> Result<(), TrialStoreError> {
         let io = |source| TrialStoreError::Io { path: self.path.clone(), source };
-        let bytes = rows(&cells(&trial)).map_err(io)?;
+        let cells = cells(&trial);
+        let bytes = rows(&cells).map_err(io)?;
         self.file.write_all(&bytes).and_then(|()| self.file.sync_data()).map_err(io)?;
-        self.trials.push(trial);
+        // With the digits of the file, so that a run and one that resumes it make the same table.
+        let written = cells.into_iter().filter_map(|row| parse(&csv::StringRecord::from(row)));
+        let outcomes = written.map(|(_, _, outcome)| outcome).collect();
+        self.trials.push(Trial { outcomes, ..trial });
         Ok(())
     }
 }
@@ -162,6 +166,17 @@ mod tests {
         assert!(store.is_finished("mug, blue", 0) && !store.is_finished("lamp", 0));
         store.append(trial("lamp")).unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+    }
+
+    #[test]
+    fn a_resumed_run_knows_the_numbers_of_the_first() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("trials.csv");
+        let mut store = TrialStore::open(&path).unwrap();
+        let mut thirds = trial("mug");
+        thirds.outcomes.iter_mut().for_each(|outcome| outcome.psnr_db = 100.0 / 3.0);
+        store.append(thirds).unwrap();
+        assert_eq!(store.trials(), TrialStore::open(&path).unwrap().trials());
     }
 
     #[test]
