@@ -86,7 +86,6 @@ mod tests {
             "{held_out} of {}",
             records.len()
         );
-        let info = shipped();
-        assert!(info.info().trained_on as usize <= records.len() - held_out);
+        assert!(candidates[0].predictor.info().trained_on as usize <= records.len() - held_out);
     }
 }

@@ -47,13 +47,14 @@ def left_out_answers(run: Path, config: dict, source, rows, turns: int = TURNS) 
             out = np.flatnonzero(tested)
             if len(known) < 2 or not len(out):
                 raise SystemExit(f"{len(rows)} rows are too few to leave some out {turns} times")
-            views = [row.views for row in fitted(config, known, validation)]
+            learnt = fitted(config, known, validation)
+            views = [row.views for row in learnt]
             low = int(min(views))
             settings = {**config, "range": [low, max(int(max(views)), low + 1)]}
             torch.manual_seed(config["seed"] + 1 + turn)
             network = start(settings, run)
             if config["head"] == "ridge":
-                ridge.fit(network, source, fitted(config, known, validation), settings)
+                ridge.fit(network, source, learnt, settings)
                 bar.update()
             else:
                 network.start_at(float(np.median(views)))
