@@ -123,7 +123,8 @@ $(TURNS)/%.onnx: | inputs train-env
 	cd models/training && .venv/bin/python -m prvnet.export --run $(abspath $(TURNS))/$* --out $(abspath $@)
 
 ## The paper's Table I on the first 250 labels, each by the network that holds it out; ten CPU seconds an object,
-## resumable. New labels want TURNS, RUN, COMPARE and models/table1 emptied: what is there is of other labels.
+## resumable. New labels want TURNS, RUN and COMPARE emptied: what is there is of other labels.
+## models/table1/reconstructions.csv stays: what a number of views leads to does not depend on the networks.
 table1: $(OBJECTS)/.done build turns
 	target/release/prv evaluate table1 --objects $(OBJECTS) --labels $(LABELS) --limit $(LIMIT) \
 	  --model $(foreach turn,0 1 2 3 4,$(TURNS)/$(turn).onnx) --out models/table1 --jobs $(JOBS)

@@ -1,15 +1,16 @@
 //! `prv evaluate`: reproduces the paper's tables on held-out objects.
 
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::evaluate::candidate::Candidate;
 use prv::evaluate::plot::bars;
-use prv::evaluate::store::TrialStore;
+use prv::evaluate::store::ReconstructionStore;
 use prv::evaluate::table_one::TableOne;
-use prv::evaluate::trial::reconstruct;
+use prv::evaluate::trial::{Outcome, Trial, TrialError, reconstruct};
 use prv::label::record::LabelRecord;
 use prv::label::store::read_labels;
 use prv::nerf::NerfSettings;
@@ -33,7 +34,8 @@ enum Table {
 /// Compare PRVNet with mode, median and mean of the labels: Table I.
 ///
 /// Reconstructs each held-out object with the number of views of every method, and compares with the result of its
-/// own label: PSNR, SSIM and movement. Writes trials.csv (resumable), table1.csv, table1.md and table1.svg.
+/// own label: PSNR, SSIM and movement. Writes reconstructions.csv, which a stopped run resumes and other networks reuse,
+/// and from it trials.csv, table1.csv, table1.md, table1.svg and settings.json, which names the networks.
 #[derive(clap::Args)]
 struct TableOneArgs {
     /// Folders or files where the labelled objects are (.sh3f libraries, OBJ, glTF); made objects need none.
@@ -68,8 +70,7 @@ pub fn run(args: &Args) -> CliResult {
     std::fs::create_dir_all(&args.out)?;
     let jobs = workers::threads(args.jobs);
     let candidates = candidates(&args.model, &records)?;
-    same_settings(&args.out.join("settings.json"), &candidates)?;
-    let store = TrialStore::open(&args.out.join("trials.csv"))?;
+    let store = Mutex::new(ReconstructionStore::open(&args.out.join("reconstructions.csv"))?);
     let held_out: Vec<(&LabelRecord, &Candidate)> = records
         .iter()
         .filter(|record| record.reading.v_gain.is_some())
@@ -80,24 +81,23 @@ pub fn run(args: &Args) -> CliResult {
         .filter_map(|(record, candidate)| Some((objects.get(&record.object)?, *record, *candidate)))
         .collect();
     let missing = held_out.len() - found.len();
-    let chosen = found.iter().take(args.limit.unwrap_or(usize::MAX));
-    let work: Vec<_> = chosen.filter(|(_, r, _)| !store.is_finished(&r.object, r.draw)).collect();
+    let work: Vec<_> = found.into_iter().take(args.limit.unwrap_or(usize::MAX)).collect();
     eprintln!(
-        "{} labels held out, {missing} of them of objects not found; {} done, {} to reconstruct",
+        "{} labels held out, {missing} of them of objects not found; {} objects to judge",
         held_out.len(),
-        store.trials().len(),
         work.len(),
     );
     let bar = ProgressBar::new(work.len() as u64).with_style(ProgressStyle::with_template(
         "{elapsed_precise} [{wide_bar}] {pos}/{len} objects, {eta_precise} left",
     )?);
-    let (store, failed) = (Mutex::new(store), AtomicUsize::new(0));
-    let outcome = workers::side_by_side(jobs, &work, |(entry, record, candidate)| {
-        match reconstruct(entry, record, candidate, &NerfSettings::label()) {
+    let (trials, failed) = (Mutex::new(BTreeMap::new()), AtomicUsize::new(0));
+    let each: Vec<_> = work.iter().enumerate().collect();
+    let outcome = workers::side_by_side(jobs, &each, |(index, (entry, record, candidate))| {
+        match reconstruct(entry, record, candidate, &NerfSettings::label(), &store) {
             Ok(trial) => {
-                let mut store = store.lock().map_err(|e| e.to_string())?;
-                store.append(trial).map_err(|e| e.to_string())?;
+                trials.lock().map_err(|e| e.to_string())?.insert(*index, trial);
             }
+            Err(TrialError::Store(error)) => return Err(error.to_string()),
             Err(error) => {
                 failed.fetch_add(1, Ordering::Relaxed);
                 bar.suspend(|| eprintln!("{}: {error}", record.object));
@@ -108,8 +108,11 @@ pub fn run(args: &Args) -> CliResult {
     });
     bar.finish_and_clear();
     outcome?;
-    let store = store.into_inner().map_err(|e| e.to_string())?;
-    report(args, &TableOne::of(store.trials()))?;
+    let trials: Vec<Trial> = trials.into_inner().map_err(|e| e.to_string())?.into_values().collect();
+    let settings: serde_json::Value = candidates.iter().map(Candidate::settings).collect();
+    std::fs::write(args.out.join("settings.json"), format!("{settings:#}\n"))?;
+    write_trials(args, &trials)?;
+    report(args, &TableOne::of(&trials))?;
     match failed.into_inner() {
         0 => Ok(()),
         failed => Err(format!("{failed} objects could not be reconstructed and are not in the table").into()),
@@ -132,22 +135,18 @@ fn candidates(
     Ok(Candidate::all(predictors, records)?)
 }
 
-/// Writes what all trials of a folder have in common, or compares it with what is there.
-fn same_settings(path: &Path, candidates: &[Candidate]) -> CliResult {
-    let settings: serde_json::Value = candidates.iter().map(Candidate::settings).collect();
-    match std::fs::read_to_string(path) {
-        Ok(text) if serde_json::from_str::<serde_json::Value>(&text).is_ok_and(|known| known == settings) => {
-            Ok(())
+fn write_trials(args: &TableOneArgs, trials: &[Trial]) -> CliResult {
+    let mut csv = csv::Writer::from_path(args.out.join("trials.csv"))?;
+    csv.write_record(["object", "draw", "method", "views", "psnr_db", "ssim", "movement_m"])?;
+    for trial in trials {
+        for Outcome { method, views, reconstruction: r } in &trial.outcomes {
+            let counts = [trial.draw.to_string(), method.word().to_owned(), views.to_string()];
+            let numbers =
+                [format!("{:.4}", r.psnr_db), format!("{:.6}", r.ssim), format!("{:.5}", r.movement_m)];
+            csv.write_record(std::iter::once(trial.object.clone()).chain(counts).chain(numbers))?;
         }
-        Ok(_) => {
-            Err(format!("{}: trials of another model or other labels; give another --out", path.display())
-                .into())
-        }
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            Ok(std::fs::write(path, format!("{settings:#}\n"))?)
-        }
-        Err(error) => Err(format!("{}: {error}", path.display()).into()),
     }
+    Ok(csv.flush()?)
 }
 
 fn report(args: &TableOneArgs, table: &TableOne) -> CliResult {

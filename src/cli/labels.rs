@@ -1,13 +1,16 @@
 //! `prv labels`: joins label files and reads their curves again.
 
+use std::collections::HashSet;
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
+use indicatif::{ProgressBar, ProgressStyle};
 use prv::label::protocol::{GAIN_DB, NEAR_DB, PAPER_ALPHA_DB};
 use prv::label::reading::{Thresholds, read_label};
 use prv::label::record::LabelRecord;
 use prv::label::store::{LabelStore, read_labels};
 
-use super::CliResult;
+use super::{CliResult, workers};
 
 /// Join label files (shards of `prv label`) and read the labels off their curves again.
 ///
@@ -29,6 +32,9 @@ pub struct Args {
     /// v_near is where the curve comes this close to its value at 100 views, dB.
     #[arg(long, env = "PRV_NEAR", default_value_t = NEAR_DB)]
     near: f64,
+    /// Rows read side by side; 0 for one a core.
+    #[arg(long, env = "PRV_JOBS", default_value_t = 0)]
+    jobs: usize,
     /// Print JSON.
     #[arg(long, env = "PRV_JSON")]
     json: bool,
@@ -44,18 +50,32 @@ pub fn run(args: &Args) -> CliResult {
     let thresholds = Thresholds { alpha_db: args.alpha, gain_db: args.gain, near_db: args.near };
     let mut store = LabelStore::open(&args.out)?;
     let (before, mut twice) = (store.len(), 0);
+    let (mut records, mut chosen) = (Vec::new(), HashSet::new());
     for file in &args.files {
-        for mut record in read_labels(file)? {
-            if store.is_finished(&record.object, record.draw, record.repeat) {
+        for record in read_labels(file)? {
+            let finished = store.is_finished(&record.object, record.draw, record.repeat);
+            if finished || !chosen.insert((record.object.clone(), record.draw, record.repeat)) {
                 twice += 1;
-                continue;
+            } else {
+                records.push((file, record, OnceLock::new()));
             }
-            record.reading = read_label(&record.samples, thresholds, record.seed).map_err(|error| {
-                let LabelRecord { object, draw, repeat, .. } = &record;
-                format!("{}, {object}, size {draw}, measurement {repeat}: {error}", file.display())
-            })?;
-            store.append(&record)?;
         }
+    }
+    let bar = ProgressBar::new(records.len() as u64).with_style(ProgressStyle::with_template(
+        "{elapsed_precise} [{wide_bar}] {pos}/{len} rows, {eta_precise} left",
+    )?);
+    workers::side_by_side(workers::threads(args.jobs), &records, |(file, record, reading)| {
+        let LabelRecord { object, draw, repeat, .. } = record;
+        let read = read_label(&record.samples, thresholds, record.seed).map_err(|error| {
+            format!("{}, {object}, size {draw}, measurement {repeat}: {error}", file.display())
+        })?;
+        bar.inc(1);
+        reading.set(read).map_err(|_| format!("{object} was read twice"))
+    })?;
+    bar.finish_and_clear();
+    for (_, mut record, reading) in records {
+        record.reading = reading.into_inner().ok_or("a row was not read")?;
+        store.append(&record)?;
     }
     let added = store.len() - before;
     if args.json {

@@ -3,7 +3,7 @@
 //! - [`held_out`]: which labels a comparison may use. - [`candidate`]: a network with those that it may be judged on.
 //! - [`counts`]: the view count each method gives an object.
 //! - [`trial`]: reconstructs one object with each of those counts.
-//! - [`store`]: the file of trials. - [`table_one`]: what they say together. - [`plot`]: the same as a picture.
+//! - [`store`]: the file of reconstructions. - [`table_one`]: what they say together. - [`plot`]: the same as a picture.
 
 pub mod candidate;
 pub mod counts;

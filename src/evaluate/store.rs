@@ -1,17 +1,47 @@
-//! The file of trials: one row a method and object, appended an object at a time.
+//! The file of reconstructions: one row an object, size and number of views, appended one at a time.
+//!
+//! What a number of views leads to does not depend on who asked for it, so other networks' tables reuse the file.
 
+use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::counts::Method;
-use super::trial::{Outcome, Trial};
+use crate::label::record::LabelRecord;
 
-const COLUMNS: [&str; 7] = ["object", "draw", "method", "views", "psnr_db", "ssim", "movement_m"];
+const COLUMNS: [&str; 7] = ["object", "draw", "radius_m", "views", "psnr_db", "ssim", "movement_m"];
 
-/// Why trials could not be read or written.
+/// What a number of views of an object leads to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reconstruction {
+    /// Mean PSNR over the test views and NeRFs, dB.
+    pub psnr_db: f64,
+    /// Mean structural similarity over the same.
+    pub ssim: f64,
+    /// Length of the camera's shortest path through the views, metres.
+    pub movement_m: f64,
+}
+
+/// An object at one of its sizes, and a number of views of it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Key {
+    object: String,
+    draw: u64,
+    /// Metres as the label file writes them: labels made anew at another size are not those of the file.
+    radius: String,
+    views: u32,
+}
+
+impl Key {
+    fn new(record: &LabelRecord, views: u32) -> Key {
+        let radius = format!("{:.5}", record.radius_m);
+        Key { object: record.object.clone(), draw: record.draw, radius, views }
+    }
+}
+
+/// Why reconstructions could not be read or written.
 #[derive(Debug, thiserror::Error)]
-pub enum TrialStoreError {
+pub enum StoreError {
     /// The file system said no.
     #[error("{path}: {source}")]
     Io {
@@ -20,7 +50,7 @@ pub enum TrialStoreError {
         /// What it said.
         source: std::io::Error,
     },
-    /// Not a file of trials, or another program's rows in it.
+    /// Not a file of reconstructions, or another program's rows in it.
     #[error("{path}: {what}; give another --out")]
     Content {
         /// The file.
@@ -30,153 +60,163 @@ pub enum TrialStoreError {
     },
 }
 
-/// An open file of trials. A trial reaches the disk in one write, so a killed run loses at most one.
-pub struct TrialStore {
+/// An open file of reconstructions. Each reaches the disk in one write, so a killed run loses at most one a thread.
+pub struct ReconstructionStore {
     file: File,
     path: PathBuf,
-    trials: Vec<Trial>,
+    known: HashMap<Key, Reconstruction>,
 }
 
-impl TrialStore {
-    /// Opens `path`, or creates it. Of a trial that a kill cut in half nothing is kept.
+impl ReconstructionStore {
+    /// Opens `path`, or creates it. A last line that a kill cut in half is dropped.
     ///
     /// # Errors
-    /// [`TrialStoreError`].
-    pub fn open(path: &Path) -> Result<TrialStore, TrialStoreError> {
-        let io = |source| TrialStoreError::Io { path: path.to_owned(), source };
+    /// [`StoreError`].
+    pub fn open(path: &Path) -> Result<ReconstructionStore, StoreError> {
+        let io = |source| StoreError::Io { path: path.to_owned(), source };
         let text = match std::fs::read_to_string(path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
             Err(error) => return Err(io(error)),
         };
-        let trials = read(&text).map_err(|what| TrialStoreError::Content { path: path.to_owned(), what })?;
-        // Written again whole: the file is small, and half a trial is gone that way.
-        let partial = path.with_extension("part");
-        let mut file = File::create(&partial).map_err(io)?;
-        let mut bytes = rows(&[COLUMNS.map(str::to_owned).to_vec()]).map_err(io)?;
-        for trial in &trials {
-            bytes.extend(rows(&cells(trial)).map_err(io)?);
+        let whole = &text[..text.rfind('\n').map_or(0, |end| end + 1)];
+        let known = read(whole).map_err(|what| StoreError::Content { path: path.to_owned(), what })?;
+        // Written again where a line is missing or cut; the file is small.
+        if whole.is_empty() || whole.len() < text.len() {
+            let partial = path.with_extension("part");
+            let header = if whole.is_empty() { line(&COLUMNS).map_err(io)? } else { Vec::new() };
+            let mut file = File::create(&partial).map_err(io)?;
+            let written = file.write_all(&header).and_then(|()| file.write_all(whole.as_bytes()));
+            written.and_then(|()| file.sync_all()).map_err(io)?;
+            std::fs::rename(&partial, path).map_err(io)?;
         }
-        file.write_all(&bytes).and_then(|()| file.sync_all()).map_err(io)?;
-        std::fs::rename(&partial, path).map_err(io)?;
         let file = OpenOptions::new().append(true).open(path).map_err(io)?;
-        Ok(TrialStore { file, path: path.to_owned(), trials })
+        Ok(ReconstructionStore { file, path: path.to_owned(), known })
     }
 
-    /// The finished trials.
-    pub fn trials(&self) -> &[Trial] {
-        &self.trials
+    /// The reconstruction of this labelled object from this many views, if it has been made.
+    pub fn get(&self, record: &LabelRecord, views: u32) -> Option<Reconstruction> {
+        self.known.get(&Key::new(record, views)).copied()
     }
 
-    /// True when this object at this size is finished.
-    pub fn is_finished(&self, object: &str, draw: u64) -> bool {
-        self.trials.iter().any(|trial| trial.object == object && trial.draw == draw)
-    }
-
-    /// Appends a trial and waits until it is on disk.
+    /// Appends a reconstruction, waits until it is on disk, and gives it back with the digits of the file, so that a
+    /// run and one that resumes it make the same table.
     ///
     /// # Errors
-    /// [`TrialStoreError::Io`].
-    pub fn append(&mut self, trial: Trial) -> Result<(), TrialStoreError> {
-        let io = |source| TrialStoreError::Io { path: self.path.clone(), source };
-        let cells = cells(&trial);
-        let bytes = rows(&cells).map_err(io)?;
+    /// [`StoreError::Io`].
+    pub fn append(
+        &mut self,
+        record: &LabelRecord,
+        views: u32,
+        made: Reconstruction,
+    ) -> Result<Reconstruction, StoreError> {
+        let io = |source| StoreError::Io { path: self.path.clone(), source };
+        let key = Key::new(record, views);
+        let cells = cells(&key, &made);
+        let bytes = line(&cells).map_err(io)?;
         self.file.write_all(&bytes).and_then(|()| self.file.sync_data()).map_err(io)?;
-        // With the digits of the file, so that a run and one that resumes it make the same table.
-        let written = cells.into_iter().filter_map(|row| parse(&csv::StringRecord::from(row)));
-        let outcomes = written.map(|(_, _, outcome)| outcome).collect();
-        self.trials.push(Trial { outcomes, ..trial });
-        Ok(())
+        let written = parse(&csv::StringRecord::from(cells.to_vec())).map_or(made, |(_, written)| written);
+        self.known.insert(key, written);
+        Ok(written)
     }
 }
 
-fn cells(trial: &Trial) -> Vec<Vec<String>> {
-    let row = |o: &Outcome| {
-        let text =
-            [trial.object.clone(), trial.draw.to_string(), o.method.word().to_owned(), o.views.to_string()];
-        let numbers = [format!("{:.4}", o.psnr_db), format!("{:.6}", o.ssim), format!("{:.5}", o.movement_m)];
-        text.into_iter().chain(numbers).collect()
-    };
-    trial.outcomes.iter().map(row).collect()
+fn cells(key: &Key, made: &Reconstruction) -> [String; COLUMNS.len()] {
+    [
+        key.object.clone(),
+        key.draw.to_string(),
+        key.radius.clone(),
+        key.views.to_string(),
+        format!("{:.4}", made.psnr_db),
+        format!("{:.6}", made.ssim),
+        format!("{:.5}", made.movement_m),
+    ]
 }
 
-fn rows(cells: &[Vec<String>]) -> std::io::Result<Vec<u8>> {
+fn line(cells: &[impl AsRef<[u8]>]) -> std::io::Result<Vec<u8>> {
     let mut writer = csv::WriterBuilder::new().from_writer(Vec::new());
-    for row in cells {
-        writer.write_record(row).map_err(std::io::Error::other)?;
-    }
+    writer.write_record(cells).map_err(std::io::Error::other)?;
     writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
 }
 
-/// Whole trials only: five rows of one object, one a method.
-fn read(text: &str) -> Result<Vec<Trial>, String> {
-    let whole = &text[..text.rfind('\n').map_or(0, |end| end + 1)];
-    let mut lines = csv::ReaderBuilder::new().has_headers(false).from_reader(whole.as_bytes()).into_records();
-    let Some(header) = lines.next() else { return Ok(Vec::new()) };
+fn read(text: &str) -> Result<HashMap<Key, Reconstruction>, String> {
+    let mut lines = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes()).into_records();
+    let Some(header) = lines.next() else { return Ok(HashMap::new()) };
     let header = header.map_err(|error| error.to_string())?;
     if header.iter().ne(COLUMNS) {
         return Err(format!("the first line is not {}", COLUMNS.join(",")));
     }
-    let mut trials: Vec<Trial> = Vec::new();
-    for (index, line) in lines.enumerate() {
-        let line = line.map_err(|error| error.to_string())?;
-        let (object, draw, outcome) = parse(&line).ok_or(format!("line {} is no trial", index + 2))?;
-        match trials.last_mut().filter(|t| t.object == object && t.draw == draw) {
-            Some(trial) => trial.outcomes.push(outcome),
-            None => trials.push(Trial { object, draw, outcomes: vec![outcome] }),
-        }
-    }
-    trials.retain(|trial| trial.outcomes.iter().map(|o| o.method).eq(Method::ALL));
-    Ok(trials)
+    lines
+        .enumerate()
+        .map(|(index, line)| {
+            let line = line.map_err(|error| error.to_string())?;
+            parse(&line).ok_or(format!("line {} is no reconstruction", index + 2))
+        })
+        .collect()
 }
 
-fn parse(line: &csv::StringRecord) -> Option<(String, u64, Outcome)> {
+fn parse(line: &csv::StringRecord) -> Option<(Key, Reconstruction)> {
     let number = |at: usize| line.get(at)?.parse::<f64>().ok().filter(|x| x.is_finite());
-    let outcome = Outcome {
-        method: Method::from_word(line.get(2)?)?,
+    number(2)?;
+    let key = Key {
+        object: line.get(0)?.to_owned(),
+        draw: line.get(1)?.parse().ok()?,
+        radius: line.get(2)?.to_owned(),
         views: line.get(3)?.parse().ok()?,
-        psnr_db: number(4)?,
-        ssim: number(5)?,
-        movement_m: number(6)?,
     };
-    Some((line.get(0)?.to_owned(), line.get(1)?.parse().ok()?, outcome))
+    Some((key, Reconstruction { psnr_db: number(4)?, ssim: number(5)?, movement_m: number(6)? }))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::label::store::read_labels;
 
-    fn trial(object: &str) -> Trial {
-        let outcome = |method| Outcome { method, views: 30, psnr_db: 33.25, ssim: 0.975, movement_m: 3.5 };
-        Trial { object: object.to_owned(), draw: 0, outcomes: Method::ALL.map(outcome).to_vec() }
+    fn label() -> LabelRecord {
+        read_labels("models/labels.csv".as_ref()).unwrap().swap_remove(0)
     }
 
+    fn named(object: &str) -> LabelRecord {
+        LabelRecord { object: object.to_owned(), ..label() }
+    }
+
+    const MADE: Reconstruction = Reconstruction { psnr_db: 33.25, ssim: 0.975, movement_m: 3.5 };
+
     #[test]
-    fn trials_come_back_and_half_a_trial_is_dropped() {
+    fn reconstructions_come_back_and_half_a_line_is_dropped() {
         let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("trials.csv");
-        let mut store = TrialStore::open(&path).unwrap();
-        store.append(trial("mug, blue")).unwrap();
-        store.append(trial("lamp")).unwrap();
+        let path = dir.path().join("reconstructions.csv");
+        let mut store = ReconstructionStore::open(&path).unwrap();
+        store.append(&named("mug, blue"), 24, MADE).unwrap();
+        store.append(&named("lamp"), 24, MADE).unwrap();
         drop(store);
         let text = std::fs::read_to_string(&path).unwrap();
-        std::fs::write(&path, &text[..text.len() - 30]).unwrap();
-        let mut store = TrialStore::open(&path).unwrap();
-        assert_eq!(store.trials(), [trial("mug, blue")]);
-        assert!(store.is_finished("mug, blue", 0) && !store.is_finished("lamp", 0));
-        store.append(trial("lamp")).unwrap();
+        std::fs::write(&path, &text[..text.len() - 5]).unwrap();
+        let mut store = ReconstructionStore::open(&path).unwrap();
+        assert_eq!(store.get(&named("mug, blue"), 24), Some(MADE));
+        assert_eq!(store.get(&named("lamp"), 24), None);
+        store.append(&named("lamp"), 24, MADE).unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
     }
 
     #[test]
     fn a_resumed_run_knows_the_numbers_of_the_first() {
         let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("trials.csv");
-        let mut store = TrialStore::open(&path).unwrap();
-        let mut thirds = trial("mug");
-        thirds.outcomes.iter_mut().for_each(|outcome| outcome.psnr_db = 100.0 / 3.0);
-        store.append(thirds).unwrap();
-        assert_eq!(store.trials(), TrialStore::open(&path).unwrap().trials());
+        let path = dir.path().join("reconstructions.csv");
+        let mut store = ReconstructionStore::open(&path).unwrap();
+        let thirds = Reconstruction { psnr_db: 100.0 / 3.0, ..MADE };
+        let first = store.append(&label(), 24, thirds).unwrap();
+        assert_eq!(store.get(&label(), 24), Some(first));
+        assert_eq!(ReconstructionStore::open(&path).unwrap().get(&label(), 24), Some(first));
+    }
+
+    #[test]
+    fn another_number_of_views_or_another_size_is_another_reconstruction() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut store = ReconstructionStore::open(&dir.path().join("reconstructions.csv")).unwrap();
+        store.append(&label(), 24, MADE).unwrap();
+        let larger = LabelRecord { radius_m: label().radius_m + 0.01, ..label() };
+        assert_eq!((store.get(&label(), 25), store.get(&larger, 24)), (None, None));
     }
 
     #[test]
@@ -184,7 +224,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("labels.csv");
         std::fs::write(&path, "a,b\n1,2\n").unwrap();
-        assert!(matches!(TrialStore::open(&path), Err(TrialStoreError::Content { .. })));
+        assert!(matches!(ReconstructionStore::open(&path), Err(StoreError::Content { .. })));
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "a,b\n1,2\n");
     }
 }

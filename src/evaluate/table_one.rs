@@ -1,8 +1,9 @@
 //! The paper's Table I from trials: how far each method's result is from that of the label's own count.
 
 use super::counts::Method;
+use super::store::Reconstruction;
 use super::student::paired_p_value;
-use super::trial::{Outcome, Trial};
+use super::trial::Trial;
 
 /// p-value below which a difference counts as significant (the paper's).
 const SIGNIFICANT: f64 = 0.05;
@@ -31,11 +32,11 @@ impl Quantity {
         }
     }
 
-    fn of(self, outcome: &Outcome) -> f64 {
+    fn of(self, reconstruction: &Reconstruction) -> f64 {
         match self {
-            Quantity::Psnr => outcome.psnr_db,
-            Quantity::Ssim => outcome.ssim,
-            Quantity::Movement => outcome.movement_m,
+            Quantity::Psnr => reconstruction.psnr_db,
+            Quantity::Ssim => reconstruction.ssim,
+            Quantity::Movement => reconstruction.movement_m,
         }
     }
 }
@@ -76,7 +77,7 @@ impl TableOne {
     pub fn of(trials: &[Trial]) -> TableOne {
         let differences = |method: Method, quantity: Quantity| -> Vec<f64> {
             let of = |trial: &Trial, method| {
-                trial.outcomes.iter().find(|o| o.method == method).map(|o| quantity.of(o))
+                trial.outcomes.iter().find(|o| o.method == method).map(|o| quantity.of(&o.reconstruction))
             };
             trials.iter().filter_map(|t| Some((of(t, method)? - of(t, Method::Label)?).abs())).collect()
         };
@@ -153,12 +154,15 @@ fn p_text(p: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evaluate::trial::Outcome;
 
     /// Labels of 20 + 2 i views; the network is off by one view, the statistics say 30.
     fn trials() -> Vec<Trial> {
         let outcome = |method, views: u32| {
             let v = f64::from(views);
-            Outcome { method, views, psnr_db: 30.0 + 0.05 * v, ssim: 0.9 + 0.001 * v, movement_m: 0.1 * v }
+            let reconstruction =
+                Reconstruction { psnr_db: 30.0 + 0.05 * v, ssim: 0.9 + 0.001 * v, movement_m: 0.1 * v };
+            Outcome { method, views, reconstruction }
         };
         (0..12)
             .map(|i| {

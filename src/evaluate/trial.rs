@@ -1,10 +1,12 @@
 //! Reconstructs one held-out object with the view count of each method.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use super::candidate::Candidate;
 use super::counts::Method;
+use super::store::{Reconstruction, ReconstructionStore, StoreError};
 use crate::geometry::Point;
 use crate::imaging::Camera;
 use crate::label::photograph::{Photographer, pose};
@@ -29,12 +31,8 @@ pub struct Outcome {
     pub method: Method,
     /// Views.
     pub views: u32,
-    /// Mean PSNR over the test views and NeRFs, dB.
-    pub psnr_db: f64,
-    /// Mean structural similarity over the same.
-    pub ssim: f64,
-    /// Length of the camera's shortest path through the views, metres.
-    pub movement_m: f64,
+    /// What that many views lead to.
+    pub reconstruction: Reconstruction,
 }
 
 /// An object reconstructed with the view count of every method.
@@ -69,9 +67,13 @@ pub enum TrialError {
     /// The views could not be ordered.
     #[error("order: {0}")]
     Order(#[from] OrderError),
+    /// A reconstruction could not be kept.
+    #[error("{0}")]
+    Store(#[from] StoreError),
 }
 
-/// Reconstructs `entry` at the size of its label `record`. Methods that agree on a number share its NeRFs.
+/// Reconstructs `entry` at the size of its label `record` with the number of every method. What `store` has is taken
+/// from it, what it lacks is made and added.
 ///
 /// # Errors
 /// [`TrialError`] says which part failed.
@@ -80,26 +82,29 @@ pub fn reconstruct(
     record: &LabelRecord,
     candidate: &Candidate,
     nerf: &NerfSettings,
+    store: &Mutex<ReconstructionStore>,
 ) -> Result<Trial, TrialError> {
     let label = record.reading.v_gain.ok_or(TrialError::NoLabel)?;
     let mesh = entry.load()?;
     let renderer = Renderer::new(&mesh.fitted(Point::origin(), record.radius_m));
     let predicted = candidate.predictor.predict(&initial_photos(&renderer))?.rounded;
-    let studio = Studio::new(renderer, record)?;
-    let mut by_count = BTreeMap::new();
-    let mut outcomes = Vec::new();
-    for method in Method::ALL {
-        let views = candidate.statistics.count(method, label, predicted);
-        let (psnr_db, ssim, movement_m) = match by_count.get(&views) {
-            Some(known) => *known,
-            None => {
-                let measured = studio.reconstruct(views as usize, nerf)?;
-                by_count.insert(views, measured);
-                measured
-            }
-        };
-        outcomes.push(Outcome { method, views, psnr_db, ssim, movement_m });
+    let counts = Method::ALL.map(|method| (method, candidate.statistics.count(method, label, predicted)));
+    let store = || store.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut by_count: BTreeMap<u32, Reconstruction> =
+        counts.iter().filter_map(|&(_, views)| Some((views, store().get(record, views)?))).collect();
+    let missing: BTreeSet<u32> =
+        counts.iter().map(|&(_, views)| views).filter(|views| !by_count.contains_key(views)).collect();
+    if !missing.is_empty() {
+        let studio = Studio::new(renderer, record)?;
+        for views in missing {
+            let made = studio.reconstruct(views as usize, nerf)?;
+            by_count.insert(views, store().append(record, views, made)?);
+        }
     }
+    let outcome = |(method, views)| {
+        by_count.get(&views).map(|&reconstruction| Outcome { method, views, reconstruction })
+    };
+    let outcomes = counts.into_iter().filter_map(outcome).collect();
     Ok(Trial { object: record.object.clone(), draw: record.draw, outcomes })
 }
 
@@ -135,8 +140,7 @@ impl Studio {
         Ok(Studio { photographer, tests, bounds, obstacle, seed })
     }
 
-    /// PSNR (dB), SSIM and path length (m) with this many views.
-    fn reconstruct(&self, views: usize, settings: &NerfSettings) -> Result<(f64, f64, f64), TrialError> {
+    fn reconstruct(&self, views: usize, settings: &NerfSettings) -> Result<Reconstruction, TrialError> {
         let (mut psnr_db, mut ssim, mut movement_m) = (0.0, 0.0, 0.0);
         for k in 0..NERFS {
             let seed = self.seed.wrapping_add((views + 1000 * k) as u64);
@@ -151,6 +155,6 @@ impl Studio {
             ssim += quality.mean_ssim();
         }
         let nerfs = NERFS as f64;
-        Ok((psnr_db / nerfs, ssim / nerfs, movement_m / nerfs))
+        Ok(Reconstruction { psnr_db: psnr_db / nerfs, ssim: ssim / nerfs, movement_m: movement_m / nerfs })
     }
 }

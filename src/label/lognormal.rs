@@ -65,31 +65,7 @@ fn normal_pdf(z: f64) -> f64 {
 }
 
 fn normal_cdf(z: f64) -> f64 {
-    0.5 * complementary_error_function(-z * FRAC_1_SQRT_2)
-}
-
-/// erfc by its Maclaurin series for small arguments and its continued fraction
-/// (Abramowitz and Stegun 7.1.6 and 7.1.14) for large ones; about 1e-14 relative.
-fn complementary_error_function(x: f64) -> f64 {
-    if x < 0.0 {
-        return 2.0 - complementary_error_function(-x);
-    }
-    if x < 2.0 {
-        let (mut term, mut sum) = (x, x);
-        for n in 1..80 {
-            term *= 2.0 * x * x / f64::from(2 * n + 1);
-            sum += term;
-            if term < 1e-17 * sum {
-                break;
-            }
-        }
-        return 1.0 - 2.0 / std::f64::consts::PI.sqrt() * (-x * x).exp() * sum;
-    }
-    let mut fraction = x;
-    for k in (1..=60).rev() {
-        fraction = x + 0.5 * f64::from(k) / fraction;
-    }
-    (-x * x).exp() / (std::f64::consts::PI.sqrt() * fraction)
+    0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use super::protocol::{
     training_directions,
 };
 use super::reading::{Thresholds, read_label};
-use super::record::{CurveSample, LabelRecord};
+use super::record::{CurveSample, LabelRecord, as_written};
 use crate::geometry::{Direction, Point};
 use crate::imaging::{Camera, PosedImage};
 use crate::nerf::{NerfError, NerfSettings, train};
@@ -91,8 +91,8 @@ pub fn measure(
             let each = nerf.psnr_db_over([BLACK, WHITE], &tests);
             let each: Vec<[f64; 2]> = each.into_iter().map(|over| over.map(|psnr| psnr.min(best))).collect();
             let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / each.len() as f64;
-            psnr_db.push(mean(&mut each.iter().map(|&[black, _]| black)));
-            both_db.push(mean(&mut each.iter().map(|&[black, white]| together_db(black, white))));
+            psnr_db.push(as_written(mean(&mut each.iter().map(|&[black, _]| black))));
+            both_db.push(as_written(mean(&mut each.iter().map(|&[black, white]| together_db(black, white)))));
             done += 1;
             progress(done, nerfs);
         }

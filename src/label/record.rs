@@ -217,6 +217,12 @@ pub fn over_both(sample: &CurveSample) -> &[f64] {
     &sample.both_db
 }
 
+/// A PSNR (dB) as the file has it, with four decimals. Labels are read off these, so that reading them again off the
+/// file gives the same.
+pub fn as_written(psnr_db: f64) -> f64 {
+    (psnr_db * 1e4).round() / 1e4
+}
+
 /// `3:25.9381/25.8012 5:31.9380/31.8755 ...`: views, then the PSNR of each NeRF.
 pub fn samples_text(samples: &[CurveSample], judged: fn(&CurveSample) -> &[f64]) -> String {
     let sample = |s: &CurveSample| {
@@ -254,6 +260,16 @@ pub fn curve_points(samples: &[CurveSample], judged: fn(&CurveSample) -> &[f64])
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_psnr_as_written_is_what_comes_back_from_the_file() {
+        for k in 0..2000 {
+            let written = as_written(20.0 + f64::from(k) * 0.012_345_678_9);
+            let sample = CurveSample { views: 5, psnr_db: vec![written], both_db: vec![written] };
+            let text = samples_text(std::slice::from_ref(&sample), over_black);
+            assert_eq!(samples_from_text(&text, &text), Some(vec![sample]));
+        }
+    }
 
     #[test]
     fn samples_survive_their_text() {
