@@ -69,7 +69,11 @@ async fn time_limit(State(limit): State<Duration>, request: Request, next: Next)
         Ok(response) => response,
         Err(_) => {
             // What was under way has been asked to stop.
-            let text = format!("not finished within {} s; ask again", limit.as_secs_f64());
+            let text = format!(
+                "not finished within {} s and stopped; ask for less (fewer views or roll samples), again when the \
+                 service is less busy, or start it with a longer --request-timeout-s",
+                limit.as_secs_f64()
+            );
             Problem::unavailable("timeout", text, Some(5)).into_response()
         }
     }
@@ -97,7 +101,7 @@ fn panicked(panic: Box<dyn Any + Send>) -> Response {
 }
 
 async fn no_route(uri: Uri) -> Problem {
-    Problem::not_found("no_such_route", "path", uri.path(), "a route of /openapi.json")
+    Problem::not_found("no_such_route", "path", uri.path(), "a route of /openapi.json (to read: /docs)")
 }
 
 async fn wrong_method(method: Method, uri: Uri) -> Problem {

@@ -1,5 +1,6 @@
 //! What every handler shares.
 
+use std::fs::File;
 use std::io;
 use std::sync::Arc;
 
@@ -7,7 +8,7 @@ use super::config::ServiceConfig;
 use super::executions::Executions;
 use super::heavy::HeavyWork;
 use super::planner::Planner;
-use super::store::{ExecutionStore, PlanStore};
+use super::store::{ExecutionStore, PlanStore, data_lock};
 
 /// The service's parts; cheap to clone.
 #[derive(Clone)]
@@ -22,14 +23,17 @@ pub struct AppState {
     pub executions: Executions,
     /// Settings.
     pub config: Arc<ServiceConfig>,
+    /// Keeps other services out of the data directory.
+    _data_lock: Arc<File>,
 }
 
 impl AppState {
     /// Opens the stores and loads the model; says what is missing.
     ///
     /// # Errors
-    /// A data directory that cannot be used.
+    /// A data directory that cannot be used, or that another service uses.
     pub fn open(config: ServiceConfig) -> io::Result<Self> {
+        let data_lock = data_lock::lock(&config.data_dir)?;
         let plans = PlanStore::open(&config.data_dir)?;
         let executions = Executions::open(ExecutionStore::open(&config.data_dir)?, config.arms)?;
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
@@ -44,6 +48,7 @@ impl AppState {
             plans,
             executions,
             config: Arc::new(config),
+            _data_lock: Arc::new(data_lock),
         })
     }
 }

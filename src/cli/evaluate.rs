@@ -51,6 +51,10 @@ struct TableOneArgs {
     /// Folder to write to.
     #[arg(long, env = "PRV_OUT")]
     out: PathBuf,
+    /// How many sizes of each object the networks have learnt from: mode, median and mean are of the same labels. What
+    /// is judged is the first size of each object that is held out.
+    #[arg(long, env = "PRV_SIZES", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    sizes: u64,
     /// At most this many objects, the first of the label file.
     #[arg(long, env = "PRV_LIMIT")]
     limit: Option<usize>,
@@ -69,12 +73,22 @@ pub fn run(args: &Args) -> CliResult {
     let objects = ObjectLookup::new(&args.objects)?;
     std::fs::create_dir_all(&args.out)?;
     let jobs = workers::threads(args.jobs);
-    let candidates = candidates(&args.model, &records)?;
+    let candidates = candidates(&args.model, &records, args.sizes)?;
+    for Candidate { predictor, turn, known, .. } in &candidates {
+        let trained_on = predictor.info().trained_on;
+        if trained_on as usize != *known {
+            eprintln!(
+                "the model of turn {turn} has learnt from {trained_on} labels, mode, median and mean are of {known}"
+            );
+        }
+    }
     let store = Mutex::new(ReconstructionStore::open(&args.out.join("reconstructions.csv"))?);
     let held_out: Vec<(&LabelRecord, &Candidate)> = records
         .iter()
         .filter(|record| record.reading.v_gain.is_some())
-        .filter_map(|record| Some((record, candidates.iter().find(|candidate| candidate.holds_out(record))?)))
+        .filter_map(|record| {
+            Some((record, candidates.iter().find(|candidate| candidate.may_be_judged_on(record))?))
+        })
         .collect();
     let found: Vec<(ObjectEntry, &LabelRecord, &Candidate)> = held_out
         .iter()
@@ -82,17 +96,16 @@ pub fn run(args: &Args) -> CliResult {
         .collect();
     let missing = held_out.len() - found.len();
     let work: Vec<_> = found.into_iter().take(args.limit.unwrap_or(usize::MAX)).collect();
-    eprintln!(
-        "{} labels held out, {missing} of them of objects not found; {} objects to judge",
-        held_out.len(),
-        work.len(),
-    );
+    eprintln!("{} objects held out, {missing} of them not found; {} to judge", held_out.len(), work.len(),);
+    if work.is_empty() {
+        return Err("nothing to judge: no object of a held-out label was found in --objects".into());
+    }
     let bar = ProgressBar::new(work.len() as u64).with_style(ProgressStyle::with_template(
         "{elapsed_precise} [{wide_bar}] {pos}/{len} objects, {eta_precise} left",
     )?);
     let (trials, failed) = (Mutex::new(BTreeMap::new()), AtomicUsize::new(0));
-    let each: Vec<_> = work.iter().enumerate().collect();
-    let outcome = workers::side_by_side(jobs, &each, |(index, (entry, record, candidate))| {
+    let numbered: Vec<_> = work.iter().enumerate().collect();
+    let outcome = workers::side_by_side(jobs, &numbered, |(index, (entry, record, candidate))| {
         match reconstruct(entry, record, candidate, &NerfSettings::label(), &store) {
             Ok(trial) => {
                 trials.lock().map_err(|e| e.to_string())?.insert(*index, trial);
@@ -109,10 +122,10 @@ pub fn run(args: &Args) -> CliResult {
     bar.finish_and_clear();
     outcome?;
     let trials: Vec<Trial> = trials.into_inner().map_err(|e| e.to_string())?.into_values().collect();
-    let settings: serde_json::Value = candidates.iter().map(Candidate::settings).collect();
-    std::fs::write(args.out.join("settings.json"), format!("{settings:#}\n"))?;
     write_trials(args, &trials)?;
     report(args, &TableOne::of(&trials))?;
+    let settings: serde_json::Value = candidates.iter().map(Candidate::settings).collect();
+    write(args, "settings.json", format!("{settings:#}\n").as_bytes())?;
     match failed.into_inner() {
         0 => Ok(()),
         failed => Err(format!("{failed} objects could not be reconstructed and are not in the table").into()),
@@ -124,6 +137,7 @@ pub fn run(args: &Args) -> CliResult {
 fn candidates(
     models: &[PathBuf],
     records: &[LabelRecord],
+    sizes: u64,
 ) -> Result<Vec<Candidate>, Box<dyn std::error::Error>> {
     let mut predictors = Vec::new();
     if models.is_empty() {
@@ -132,11 +146,18 @@ fn candidates(
     for path in models {
         predictors.push(Predictor::load(&model_bytes(Some(path))?, 1, 1)?);
     }
-    Ok(Candidate::all(predictors, records)?)
+    Ok(Candidate::all(predictors, records, sizes)?)
+}
+
+/// Replaces a file of the folder by a whole one.
+fn write(args: &TableOneArgs, name: &str, bytes: &[u8]) -> CliResult {
+    let partial = args.out.join(format!("{name}.part"));
+    std::fs::write(&partial, bytes)?;
+    Ok(std::fs::rename(partial, args.out.join(name))?)
 }
 
 fn write_trials(args: &TableOneArgs, trials: &[Trial]) -> CliResult {
-    let mut csv = csv::Writer::from_path(args.out.join("trials.csv"))?;
+    let mut csv = csv::Writer::from_writer(Vec::new());
     csv.write_record(["object", "draw", "method", "views", "psnr_db", "ssim", "movement_m"])?;
     for trial in trials {
         for Outcome { method, views, reconstruction: r } in &trial.outcomes {
@@ -146,14 +167,14 @@ fn write_trials(args: &TableOneArgs, trials: &[Trial]) -> CliResult {
             csv.write_record(std::iter::once(trial.object.clone()).chain(counts).chain(numbers))?;
         }
     }
-    Ok(csv.flush()?)
+    write(args, "trials.csv", &csv.into_inner()?)
 }
 
 fn report(args: &TableOneArgs, table: &TableOne) -> CliResult {
     let markdown = table.markdown();
-    std::fs::write(args.out.join("table1.md"), &markdown)?;
-    std::fs::write(args.out.join("table1.svg"), bars(table))?;
-    let mut csv = csv::Writer::from_path(args.out.join("table1.csv"))?;
+    write(args, "table1.md", markdown.as_bytes())?;
+    write(args, "table1.svg", bars(table).as_bytes())?;
+    let mut csv = csv::Writer::from_writer(Vec::new());
     csv.write_record([
         "method",
         "objects",
@@ -177,7 +198,7 @@ fn report(args: &TableOneArgs, table: &TableOne) -> CliResult {
         }
         csv.write_record(cells)?;
     }
-    csv.flush()?;
+    write(args, "table1.csv", &csv.into_inner()?)?;
     if args.json {
         let rows: Vec<_> = table.rows.iter().map(|row| {
             let cell = |k: usize| serde_json::json!({

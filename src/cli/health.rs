@@ -31,7 +31,8 @@ pub fn run(args: &Args) -> CliResult {
         });
     }
     let timeout = Duration::from_secs(args.timeout_s.max(1));
-    let mut stream = TcpStream::connect_timeout(&address, timeout)?;
+    let mut stream =
+        TcpStream::connect_timeout(&address, timeout).map_err(|error| format!("{address}: {error}"))?;
     stream.set_read_timeout(Some(timeout))?;
     stream.set_write_timeout(Some(timeout))?;
     write!(stream, "GET {} HTTP/1.0\r\nHost: {address}\r\n\r\n", args.path)?;

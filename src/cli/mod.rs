@@ -83,6 +83,7 @@ pub type CliResult = Result<(), Box<dyn std::error::Error>>;
 /// Parses the command line and runs it. Exit codes: 0 done, 1 failed, 2 bad usage (clap); those of
 /// `check` are its own.
 pub fn run() -> ExitCode {
+    leave_quietly_when_nobody_reads();
     // Without a subcommand the program serves, so that `cargo run --release` does.
     let words: Vec<_> = std::env::args_os().collect();
     let cli = if words.len() == 1 { Cli::parse_from(["prv", "serve"]) } else { Cli::parse_from(words) };
@@ -109,6 +110,7 @@ pub fn run() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        Err(error) if is_broken_pipe(error.as_ref()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("prv: {error}");
             let mut source = error.source();
@@ -119,4 +121,21 @@ pub fn run() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// `prv robots | head -1`: whoever reads has enough. `println!` knows no other way to say so than a panic.
+fn leave_quietly_when_nobody_reads() {
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        let text = panic.payload().downcast_ref::<String>().map_or("", String::as_str);
+        if text.starts_with("failed printing to stdout") && text.contains("Broken pipe") {
+            std::process::exit(0);
+        }
+        usual(panic);
+    }));
+}
+
+fn is_broken_pipe(error: &(dyn std::error::Error + 'static)) -> bool {
+    let kind = error.downcast_ref::<std::io::Error>().map(std::io::Error::kind);
+    kind == Some(std::io::ErrorKind::BrokenPipe)
 }

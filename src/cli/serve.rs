@@ -1,6 +1,7 @@
 //! `prv serve`: the service.
 
 use std::net::SocketAddr;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -31,10 +32,10 @@ pub struct Args {
     #[arg(long, env = "PRV_QUEUE", default_value_t = 16)]
     queue: usize,
     /// Simulated arms that move at a time; further runs wait.
-    #[arg(long, env = "PRV_ARMS", default_value_t = 2)]
-    arms: usize,
-    /// Seconds after which a request is answered with 503; its work goes on and is stored.
-    #[arg(long, env = "PRV_REQUEST_TIMEOUT_S", default_value_t = 120)]
+    #[arg(long, env = "PRV_ARMS", default_value = "2")]
+    arms: NonZeroUsize,
+    /// Seconds after which a request is answered with 503 and its work stopped; a plan finished before is stored.
+    #[arg(long, env = "PRV_REQUEST_TIMEOUT_S", default_value_t = 120, value_parser = clap::value_parser!(u64).range(1..))]
     request_timeout_s: u64,
     /// Seconds that what is under way gets when the service stops.
     #[arg(long, env = "PRV_SHUTDOWN_TIMEOUT_S", default_value_t = 10)]
@@ -64,8 +65,8 @@ pub fn run(args: &Args) -> CliResult {
         model: args.model.clone(),
         workers: if args.workers == 0 { cores } else { args.workers },
         queue: args.queue,
-        arms: args.arms,
-        request_timeout: Duration::from_secs(args.request_timeout_s.max(1)),
+        arms: args.arms.get(),
+        request_timeout: Duration::from_secs(args.request_timeout_s),
         shutdown_timeout: Duration::from_secs(args.shutdown_timeout_s),
     };
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;

@@ -32,11 +32,6 @@ impl Method {
         }
     }
 
-    /// The method of a word.
-    pub fn from_word(word: &str) -> Option<Method> {
-        Method::ALL.into_iter().find(|method| method.word() == word)
-    }
-
     /// The name in tables.
     pub fn name(self) -> &'static str {
         match self {

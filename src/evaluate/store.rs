@@ -1,6 +1,8 @@
 //! The file of reconstructions: one row an object, size and number of views, appended one at a time.
 //!
-//! What a number of views leads to does not depend on who asked for it, so other networks' tables reuse the file.
+//! What a number of views leads to does not depend on who asked for it, so other networks' tables reuse the file. It
+//! does depend on the object's mesh, the renderer, the view sets and the NeRFs' kernels, which the file does not name:
+//! when one of those changes, the file must go.
 
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
@@ -8,8 +10,12 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::label::record::LabelRecord;
+use crate::nerf::NerfSettings;
 
-const COLUMNS: [&str; 7] = ["object", "draw", "radius_m", "views", "psnr_db", "ssim", "movement_m"];
+const COLUMNS: [&str; 8] = ["object", "draw", "radius_m", "nerfs", "views", "psnr_db", "ssim", "movement_m"];
+
+/// NeRFs of each view count, each with its own turn of the view set and seed.
+pub const NERFS: usize = 2;
 
 /// What a number of views of an object leads to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,19 +35,22 @@ struct Key {
     draw: u64,
     /// Metres as the label file writes them: labels made anew at another size are not those of the file.
     radius: String,
+    /// NeRFs, steps of each, samples of a step.
+    nerfs: String,
     views: u32,
 }
 
 impl Key {
-    fn new(record: &LabelRecord, views: u32) -> Key {
+    fn new(record: &LabelRecord, nerf: &NerfSettings, views: u32) -> Key {
         let radius = format!("{:.5}", record.radius_m);
-        Key { object: record.object.clone(), draw: record.draw, radius, views }
+        let nerfs = format!("{NERFS}x{}x{}", nerf.steps, nerf.samples_per_step);
+        Key { object: record.object.clone(), draw: record.draw, radius, nerfs, views }
     }
 }
 
 /// Why reconstructions could not be read or written.
 #[derive(Debug, thiserror::Error)]
-pub enum StoreError {
+pub enum ReconstructionStoreError {
     /// The file system said no.
     #[error("{path}: {source}")]
     Io {
@@ -50,7 +59,17 @@ pub enum StoreError {
         /// What it said.
         source: std::io::Error,
     },
-    /// Not a file of reconstructions, or another program's rows in it.
+    /// A figure is infinite or not a number; nothing was written.
+    #[error("{object} with {views} views: {made:?} is not finite")]
+    NotFinite {
+        /// The object's key.
+        object: String,
+        /// Number of views.
+        views: u32,
+        /// The figures.
+        made: Reconstruction,
+    },
+    /// Not a file of reconstructions, or another program's rows in it, or two rows that contradict each other.
     #[error("{path}: {what}; give another --out")]
     Content {
         /// The file.
@@ -71,22 +90,28 @@ impl ReconstructionStore {
     /// Opens `path`, or creates it. A last line that a kill cut in half is dropped.
     ///
     /// # Errors
-    /// [`StoreError`].
-    pub fn open(path: &Path) -> Result<ReconstructionStore, StoreError> {
-        let io = |source| StoreError::Io { path: path.to_owned(), source };
+    /// [`ReconstructionStoreError`].
+    pub fn open(path: &Path) -> Result<ReconstructionStore, ReconstructionStoreError> {
+        let io = |source| ReconstructionStoreError::Io { path: path.to_owned(), source };
         let text = match std::fs::read_to_string(path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
             Err(error) => return Err(io(error)),
         };
         let whole = &text[..text.rfind('\n').map_or(0, |end| end + 1)];
-        let known = read(whole).map_err(|what| StoreError::Content { path: path.to_owned(), what })?;
+        let known =
+            read(whole).map_err(|what| ReconstructionStoreError::Content { path: path.to_owned(), what })?;
+        let header = line(&COLUMNS).map_err(io)?;
+        if whole.is_empty() && !header.starts_with(text.as_bytes()) {
+            let what = format!("the first line is not {}", COLUMNS.join(","));
+            return Err(ReconstructionStoreError::Content { path: path.to_owned(), what });
+        }
         // Written again where a line is missing or cut; the file is small.
         if whole.is_empty() || whole.len() < text.len() {
             let partial = path.with_extension("part");
-            let header = if whole.is_empty() { line(&COLUMNS).map_err(io)? } else { Vec::new() };
+            let kept = if whole.is_empty() { header.as_slice() } else { whole.as_bytes() };
             let mut file = File::create(&partial).map_err(io)?;
-            let written = file.write_all(&header).and_then(|()| file.write_all(whole.as_bytes()));
+            let written = file.write_all(kept);
             written.and_then(|()| file.sync_all()).map_err(io)?;
             std::fs::rename(&partial, path).map_err(io)?;
         }
@@ -94,28 +119,36 @@ impl ReconstructionStore {
         Ok(ReconstructionStore { file, path: path.to_owned(), known })
     }
 
-    /// The reconstruction of this labelled object from this many views, if it has been made.
-    pub fn get(&self, record: &LabelRecord, views: u32) -> Option<Reconstruction> {
-        self.known.get(&Key::new(record, views)).copied()
+    /// The reconstruction of this labelled object by such NeRFs of this many views, if it has been made.
+    pub fn get(&self, record: &LabelRecord, nerf: &NerfSettings, views: u32) -> Option<Reconstruction> {
+        self.known.get(&Key::new(record, nerf, views)).copied()
     }
 
     /// Appends a reconstruction, waits until it is on disk, and gives it back with the digits of the file, so that a
     /// run and one that resumes it make the same table.
     ///
     /// # Errors
-    /// [`StoreError::Io`].
+    /// [`ReconstructionStoreError::Io`], which leaves the file as it was, and [`ReconstructionStoreError::NotFinite`].
     pub fn append(
         &mut self,
         record: &LabelRecord,
+        nerf: &NerfSettings,
         views: u32,
         made: Reconstruction,
-    ) -> Result<Reconstruction, StoreError> {
-        let io = |source| StoreError::Io { path: self.path.clone(), source };
-        let key = Key::new(record, views);
+    ) -> Result<Reconstruction, ReconstructionStoreError> {
+        let io = |source| ReconstructionStoreError::Io { path: self.path.clone(), source };
+        let key = Key::new(record, nerf, views);
         let cells = cells(&key, &made);
+        let Some((_, written)) = parse(&csv::StringRecord::from(cells.to_vec())) else {
+            return Err(ReconstructionStoreError::NotFinite { object: key.object, views, made });
+        };
         let bytes = line(&cells).map_err(io)?;
-        self.file.write_all(&bytes).and_then(|()| self.file.sync_data()).map_err(io)?;
-        let written = parse(&csv::StringRecord::from(cells.to_vec())).map_or(made, |(_, written)| written);
+        let before = self.file.metadata().map_err(io)?.len();
+        if let Err(error) = self.file.write_all(&bytes).and_then(|()| self.file.sync_data()) {
+            // Half a line must not stand before another thread's; if this fails too, opening drops or refuses it.
+            let _ = self.file.set_len(before);
+            return Err(io(error));
+        }
         self.known.insert(key, written);
         Ok(written)
     }
@@ -126,6 +159,7 @@ fn cells(key: &Key, made: &Reconstruction) -> [String; COLUMNS.len()] {
         key.object.clone(),
         key.draw.to_string(),
         key.radius.clone(),
+        key.nerfs.clone(),
         key.views.to_string(),
         format!("{:.4}", made.psnr_db),
         format!("{:.6}", made.ssim),
@@ -146,13 +180,15 @@ fn read(text: &str) -> Result<HashMap<Key, Reconstruction>, String> {
     if header.iter().ne(COLUMNS) {
         return Err(format!("the first line is not {}", COLUMNS.join(",")));
     }
-    lines
-        .enumerate()
-        .map(|(index, line)| {
-            let line = line.map_err(|error| error.to_string())?;
-            parse(&line).ok_or(format!("line {} is no reconstruction", index + 2))
-        })
-        .collect()
+    let mut known = HashMap::new();
+    for (index, line) in lines.enumerate() {
+        let line = line.map_err(|error| error.to_string())?;
+        let (key, made) = parse(&line).ok_or(format!("line {} is no reconstruction", index + 2))?;
+        if known.insert(key, made).is_some_and(|before| before != made) {
+            return Err(format!("line {} contradicts an earlier one", index + 2));
+        }
+    }
+    Ok(known)
 }
 
 fn parse(line: &csv::StringRecord) -> Option<(Key, Reconstruction)> {
@@ -162,9 +198,10 @@ fn parse(line: &csv::StringRecord) -> Option<(Key, Reconstruction)> {
         object: line.get(0)?.to_owned(),
         draw: line.get(1)?.parse().ok()?,
         radius: line.get(2)?.to_owned(),
-        views: line.get(3)?.parse().ok()?,
+        nerfs: line.get(3)?.to_owned(),
+        views: line.get(4)?.parse().ok()?,
     };
-    Some((key, Reconstruction { psnr_db: number(4)?, ssim: number(5)?, movement_m: number(6)? }))
+    Some((key, Reconstruction { psnr_db: number(5)?, ssim: number(6)?, movement_m: number(7)? }))
 }
 
 #[cfg(test)]
@@ -180,6 +217,10 @@ mod tests {
         LabelRecord { object: object.to_owned(), ..label() }
     }
 
+    fn nerf() -> NerfSettings {
+        NerfSettings::label()
+    }
+
     const MADE: Reconstruction = Reconstruction { psnr_db: 33.25, ssim: 0.975, movement_m: 3.5 };
 
     #[test]
@@ -187,15 +228,15 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("reconstructions.csv");
         let mut store = ReconstructionStore::open(&path).unwrap();
-        store.append(&named("mug, blue"), 24, MADE).unwrap();
-        store.append(&named("lamp"), 24, MADE).unwrap();
+        store.append(&named("mug, blue"), &nerf(), 24, MADE).unwrap();
+        store.append(&named("lamp"), &nerf(), 24, MADE).unwrap();
         drop(store);
         let text = std::fs::read_to_string(&path).unwrap();
         std::fs::write(&path, &text[..text.len() - 5]).unwrap();
         let mut store = ReconstructionStore::open(&path).unwrap();
-        assert_eq!(store.get(&named("mug, blue"), 24), Some(MADE));
-        assert_eq!(store.get(&named("lamp"), 24), None);
-        store.append(&named("lamp"), 24, MADE).unwrap();
+        assert_eq!(store.get(&named("mug, blue"), &nerf(), 24), Some(MADE));
+        assert_eq!(store.get(&named("lamp"), &nerf(), 24), None);
+        store.append(&named("lamp"), &nerf(), 24, MADE).unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
     }
 
@@ -205,26 +246,59 @@ mod tests {
         let path = dir.path().join("reconstructions.csv");
         let mut store = ReconstructionStore::open(&path).unwrap();
         let thirds = Reconstruction { psnr_db: 100.0 / 3.0, ..MADE };
-        let first = store.append(&label(), 24, thirds).unwrap();
-        assert_eq!(store.get(&label(), 24), Some(first));
-        assert_eq!(ReconstructionStore::open(&path).unwrap().get(&label(), 24), Some(first));
+        let first = store.append(&label(), &nerf(), 24, thirds).unwrap();
+        assert_eq!(store.get(&label(), &nerf(), 24), Some(first));
+        assert_eq!(ReconstructionStore::open(&path).unwrap().get(&label(), &nerf(), 24), Some(first));
     }
 
     #[test]
     fn another_number_of_views_or_another_size_is_another_reconstruction() {
         let dir = tempfile::tempdir().unwrap();
         let mut store = ReconstructionStore::open(&dir.path().join("reconstructions.csv")).unwrap();
-        store.append(&label(), 24, MADE).unwrap();
+        store.append(&label(), &nerf(), 24, MADE).unwrap();
         let larger = LabelRecord { radius_m: label().radius_m + 0.01, ..label() };
-        assert_eq!((store.get(&label(), 25), store.get(&larger, 24)), (None, None));
+        let second = LabelRecord { draw: 1, ..label() };
+        for other in [larger, second, named("lamp")] {
+            assert_eq!(store.get(&other, &nerf(), 24), None);
+        }
+        assert_eq!(store.get(&label(), &nerf(), 25), None);
+        assert_eq!(store.get(&label(), &NerfSettings { steps: 7, ..nerf() }, 24), None);
+        assert_eq!(store.get(&label(), &nerf(), 24), Some(MADE));
+    }
+
+    #[test]
+    fn what_is_not_finite_is_refused_and_leaves_the_file_readable() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("reconstructions.csv");
+        let mut store = ReconstructionStore::open(&path).unwrap();
+        for psnr_db in [f64::INFINITY, f64::NAN] {
+            let refused = store.append(&label(), &nerf(), 24, Reconstruction { psnr_db, ..MADE });
+            assert!(matches!(refused, Err(ReconstructionStoreError::NotFinite { views: 24, .. })));
+        }
+        assert_eq!(ReconstructionStore::open(&path).unwrap().get(&label(), &nerf(), 24), None);
+    }
+
+    #[test]
+    fn rows_that_contradict_each_other_are_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("reconstructions.csv");
+        let mut store = ReconstructionStore::open(&path).unwrap();
+        store.append(&label(), &nerf(), 24, MADE).unwrap();
+        store.append(&label(), &nerf(), 24, MADE).unwrap();
+        assert!(ReconstructionStore::open(&path).is_ok());
+        store.append(&label(), &nerf(), 24, Reconstruction { ssim: 0.5, ..MADE }).unwrap();
+        assert!(matches!(ReconstructionStore::open(&path), Err(ReconstructionStoreError::Content { .. })));
     }
 
     #[test]
     fn another_file_is_left_alone() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("labels.csv");
-        std::fs::write(&path, "a,b\n1,2\n").unwrap();
-        assert!(matches!(ReconstructionStore::open(&path), Err(StoreError::Content { .. })));
-        assert_eq!(std::fs::read_to_string(&path).unwrap(), "a,b\n1,2\n");
+        for text in ["a,b\n1,2\n", "a note without an end of line"] {
+            std::fs::write(&path, text).unwrap();
+            let refused = ReconstructionStore::open(&path);
+            assert!(matches!(refused, Err(ReconstructionStoreError::Content { .. })));
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+        }
     }
 }

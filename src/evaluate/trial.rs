@@ -1,16 +1,19 @@
 //! Reconstructs one held-out object with the view count of each method.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::cell::OnceCell;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use super::candidate::Candidate;
 use super::counts::Method;
-use super::store::{Reconstruction, ReconstructionStore, StoreError};
+use super::store::{NERFS, Reconstruction, ReconstructionStore, ReconstructionStoreError};
 use crate::geometry::Point;
-use crate::imaging::Camera;
+use crate::imaging::{Camera, PosedImage};
+use crate::label::measure::best_db;
 use crate::label::photograph::{Photographer, pose};
-use crate::label::protocol::{VIEW_RADIUS_M, nerf_bounds, seed_of, test_directions, training_directions};
+use crate::label::protocol::{
+    IMAGE_SIZE_PX, VIEW_RADIUS_M, nerf_bounds, seed_of, test_directions, training_directions,
+};
 use crate::label::record::LabelRecord;
 use crate::nerf::{Bounds, NerfError, NerfSettings, train};
 use crate::objects::ObjectEntry;
@@ -19,8 +22,6 @@ use crate::predict::{PhotoInput, PredictError};
 use crate::render::{MeshError, RenderSettings, Renderer};
 use crate::views::{ViewsError, initial_views};
 
-/// NeRFs of each view count, each with its own turn of the view set and seed.
-pub const NERFS: usize = 2;
 /// More than the exact order of 200 views needs.
 const ORDER_BUDGET: Duration = Duration::from_secs(60);
 
@@ -69,7 +70,7 @@ pub enum TrialError {
     Order(#[from] OrderError),
     /// A reconstruction could not be kept.
     #[error("{0}")]
-    Store(#[from] StoreError),
+    Store(#[from] ReconstructionStoreError),
 }
 
 /// Reconstructs `entry` at the size of its label `record` with the number of every method. What `store` has is taken
@@ -89,23 +90,33 @@ pub fn reconstruct(
     let renderer = Renderer::new(&mesh.fitted(Point::origin(), record.radius_m));
     let predicted = candidate.predictor.predict(&initial_photos(&renderer))?.rounded;
     let counts = Method::ALL.map(|method| (method, candidate.statistics.count(method, label, predicted)));
-    let store = || store.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut by_count: BTreeMap<u32, Reconstruction> =
-        counts.iter().filter_map(|&(_, views)| Some((views, store().get(record, views)?))).collect();
-    let missing: BTreeSet<u32> =
-        counts.iter().map(|&(_, views)| views).filter(|views| !by_count.contains_key(views)).collect();
-    if !missing.is_empty() {
-        let studio = Studio::new(renderer, record)?;
-        for views in missing {
-            let made = studio.reconstruct(views as usize, nerf)?;
-            by_count.insert(views, store().append(record, views, made)?);
-        }
-    }
-    let outcome = |(method, views)| {
-        by_count.get(&views).map(|&reconstruction| Outcome { method, views, reconstruction })
-    };
-    let outcomes = counts.into_iter().filter_map(outcome).collect();
+    let studio = Studio::new(renderer, record);
+    let outcomes = outcomes(counts, record, nerf, store, |views| studio.reconstruct(views as usize, nerf))?;
     Ok(Trial { object: record.object.clone(), draw: record.draw, outcomes })
+}
+
+/// What each count leads to: out of the store, or made and added to it.
+fn outcomes(
+    counts: [(Method, u32); 5],
+    record: &LabelRecord,
+    nerf: &NerfSettings,
+    store: &Mutex<ReconstructionStore>,
+    make: impl Fn(u32) -> Result<Reconstruction, TrialError>,
+) -> Result<Vec<Outcome>, TrialError> {
+    let locked = || store.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut outcomes = Vec::new();
+    for (method, views) in counts {
+        let known = locked().get(record, nerf, views);
+        let reconstruction = match known {
+            Some(known) => known,
+            None => {
+                let made = make(views)?;
+                locked().append(record, nerf, views, made)?
+            }
+        };
+        outcomes.push(Outcome { method, views, reconstruction });
+    }
+    Ok(outcomes)
 }
 
 /// Top, left and front, as the service's own initial plan takes them.
@@ -123,24 +134,34 @@ fn initial_photos(renderer: &Renderer) -> Vec<PhotoInput> {
 /// An object with its novel views. They are not those of its label, which would favour it.
 struct Studio {
     photographer: Photographer,
-    tests: Vec<crate::imaging::PosedImage>,
+    /// Taken when the first NeRF is to be judged: an object whose reconstructions are all known needs none.
+    tests: OnceCell<Vec<PosedImage>>,
     bounds: Bounds,
     obstacle: Obstacle,
     seed: u64,
 }
 
 impl Studio {
-    fn new(renderer: Renderer, record: &LabelRecord) -> Result<Studio, ViewsError> {
-        let photographer = Photographer::new(renderer);
-        let seed = seed_of(&record.object, record.draw ^ 0x7ab1_e001);
-        let tests = photographer.take(&test_directions(seed)?);
-        let bounds = nerf_bounds(record.radius_m);
+    fn new(renderer: Renderer, record: &LabelRecord) -> Studio {
         let table_z_m = Some(-record.radius_m);
-        let obstacle = Obstacle { center: Point::origin(), radius_m: record.radius_m, table_z_m };
-        Ok(Studio { photographer, tests, bounds, obstacle, seed })
+        Studio {
+            photographer: Photographer::new(renderer),
+            tests: OnceCell::new(),
+            bounds: nerf_bounds(record.radius_m),
+            obstacle: Obstacle { center: Point::origin(), radius_m: record.radius_m, table_z_m },
+            seed: seed_of(&record.object, record.draw ^ 0x7ab1_e001),
+        }
     }
 
+    /// Mean PSNR (dB), SSIM and path length (m) of [`NERFS`] NeRFs with this many views.
     fn reconstruct(&self, views: usize, settings: &NerfSettings) -> Result<Reconstruction, TrialError> {
+        let tests = match self.tests.get() {
+            Some(tests) => tests,
+            None => {
+                let taken = self.photographer.take(&test_directions(self.seed)?);
+                self.tests.get_or_init(|| taken)
+            }
+        };
         let (mut psnr_db, mut ssim, mut movement_m) = (0.0, 0.0, 0.0);
         for k in 0..NERFS {
             let seed = self.seed.wrapping_add((views + 1000 * k) as u64);
@@ -150,11 +171,45 @@ impl Studio {
             movement_m += order_points(&places, 0, &self.obstacle, ORDER_BUDGET)?.length;
             let photos = self.photographer.take(&directions);
             let nerf = train(&photos, &self.bounds, &NerfSettings { seed, ..*settings }, &mut |_| {})?;
-            let quality = nerf.evaluate(&self.tests);
-            psnr_db += quality.mean_psnr_db();
+            let quality = nerf.evaluate(tests);
+            let best = best_db(IMAGE_SIZE_PX * IMAGE_SIZE_PX);
+            psnr_db += quality.psnr_db.iter().map(|psnr| psnr.min(best)).sum::<f64>() / tests.len() as f64;
             ssim += quality.mean_ssim();
         }
         let nerfs = NERFS as f64;
         Ok(Reconstruction { psnr_db: psnr_db / nerfs, ssim: ssim / nerfs, movement_m: movement_m / nerfs })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+    use crate::label::store::read_labels;
+
+    #[test]
+    fn a_count_is_reconstructed_once_whoever_asks_for_it() {
+        let dir = tempfile::tempdir().unwrap();
+        let store =
+            || Mutex::new(ReconstructionStore::open(&dir.path().join("reconstructions.csv")).unwrap());
+        let record = read_labels("models/labels.csv".as_ref()).unwrap().swap_remove(0);
+        let asked = |store: &Mutex<ReconstructionStore>, views: [u32; 5]| {
+            let made = RefCell::new(Vec::new());
+            let counts = std::array::from_fn(|k| (Method::ALL[k], views[k]));
+            let outcomes = outcomes(counts, &record, &NerfSettings::label(), store, |views| {
+                made.borrow_mut().push(views);
+                let v = f64::from(views);
+                Ok(Reconstruction { psnr_db: 30.0 + v / 7.0, ssim: 0.9, movement_m: v })
+            });
+            (outcomes.unwrap(), made.into_inner())
+        };
+        let (first, made) = asked(&store(), [20, 24, 24, 24, 23]);
+        assert_eq!(made, [20, 24, 23]);
+        assert_eq!(first.iter().map(|o| o.views).collect::<Vec<_>>(), [20, 24, 24, 24, 23]);
+        assert_eq!(first[1].reconstruction, first[3].reconstruction);
+        let (again, made) = asked(&store(), [20, 24, 24, 25, 22]);
+        assert_eq!(made, [25, 22]);
+        assert_eq!(again[..3], first[..3]);
     }
 }

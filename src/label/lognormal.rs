@@ -82,6 +82,14 @@ mod tests {
     }
 
     #[test]
+    fn the_far_tail_keeps_its_digits() {
+        // Q(6) and Q(10) of the standard normal distribution (Abramowitz and Stegun, table 26.2).
+        for (z, tail) in [(6.0, 9.865_876_450e-10), (10.0, 7.619_853_024e-24)] {
+            assert!((normal_cdf(-z) / tail - 1.0).abs() < 1e-9, "{z}");
+        }
+    }
+
+    #[test]
     fn the_slope_is_the_derivative_of_the_value() {
         let curve = LogNormalCurve { y0: 14.0, amplitude: 17.0, x_c: 6.0, width: 0.9 };
         for v in [2.0, 6.0, 20.0, 45.0] {

@@ -121,7 +121,7 @@ fn together_db(a_db: f64, b_db: f64) -> f64 {
 
 /// PSNR of one step in one channel of one of the pixels, dB: a view without any error counts as this, not as
 /// infinitely good, or a single one would leave its object without a mean.
-fn best_db(pixels: u32) -> f64 {
+pub(crate) fn best_db(pixels: u32) -> f64 {
     10.0 * (255.0 * 255.0 * 3.0 * f64::from(pixels)).log10()
 }
 

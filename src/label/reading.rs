@@ -174,6 +174,23 @@ mod tests {
     }
 
     #[test]
+    fn the_rows_of_the_label_file_are_what_reading_their_curves_gives() {
+        let records = crate::label::store::read_labels("models/labels.csv".as_ref()).unwrap();
+        for record in records.iter().step_by(records.len() / 5) {
+            let Reading { status, v_gain, v_near, v_gain_sigma, .. } =
+                read_label(&record.samples, Thresholds::default(), record.seed).unwrap();
+            let written = &record.reading;
+            assert_eq!(
+                (status, v_gain, v_near),
+                (written.status, written.v_gain, written.v_near),
+                "{}",
+                record.object
+            );
+            assert!((v_gain_sigma - written.v_gain_sigma).abs() < 0.1, "{}", record.object);
+        }
+    }
+
+    #[test]
     fn a_set_far_above_the_ceiling_marks_the_curve_and_one_within_noise_does_not() {
         let mut samples = measured(3, 0.7);
         assert_eq!(read_label(&samples, Thresholds::default(), 0).unwrap().status, LabelStatus::Ok);

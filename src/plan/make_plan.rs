@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::adapt_views::adapted_path;
 use super::free_path::free_path;
+use super::photo_content::views_cut_off;
 use super::{
     Plan, PlanError, PlanRequest, PlanView, ViewCount, ViewSource, ViewStatus, Warning, check,
     expected_views, predict_count, view_poses,
@@ -36,7 +37,7 @@ pub fn make_plan_until(
     let mut warnings = check(request)?;
     clock.lap("check");
 
-    let (count, views, expected) = match &request.source {
+    let (mut count, views, expected) = match &request.source {
         ViewSource::Photos(images) => {
             let predictor = predictor.map_err(|cause| PlanError::NoPredictor { cause: cause.to_owned() })?;
             let (prediction, doubts) = predict_count(request, predictor)?;
@@ -56,6 +57,18 @@ pub fn make_plan_until(
         }
     };
     clock.lap("views");
+    if views.poses.len() < count.used {
+        let text = format!(
+            "the band has room for {} of the {} views only: all elevations in it are the same",
+            views.poses.len(),
+            count.used
+        );
+        warnings.push(Warning::new("fewer_views", text));
+        count.used = views.poses.len();
+    }
+    if let (Some(camera), false) = (&request.camera, matches!(request.source, ViewSource::Photos(_))) {
+        warnings.extend(views_cut_off(camera, request.shell.radius_m, request.object().radius_m));
+    }
 
     let end_at_top = matches!(request.source, ViewSource::Initial { .. });
     let (statuses, poses, path, motion_time, trajectory, coverage) = match &request.arm {
@@ -94,6 +107,12 @@ pub fn make_plan_until(
 
 fn skipped_warning(statuses: &[ViewStatus]) -> Option<Warning> {
     let skipped = statuses.iter().filter(|status| **status != ViewStatus::Planned).count();
+    if skipped > 0 && skipped == statuses.len() {
+        let text = format!(
+            "none of the {skipped} views can be reached, there is no path; their reasons stand with them"
+        );
+        return Some(Warning::new("nothing_reachable", text));
+    }
     let text = || format!("{skipped} of {} views are skipped; their reasons stand with them", statuses.len());
     (skipped > 0).then(|| Warning::new("views_skipped", text()))
 }

@@ -38,10 +38,16 @@ pub(super) fn check(request: &PlanRequest) -> Result<Vec<Warning>, PlanError> {
                 code: "image_size",
                 field: format!("images[{index}]"),
                 value: super::FieldValue::Text(format!("{}x{} pixels", image.width(), image.height())),
-                bound: format!(
-                    "{}x{} pixels as camera.width and camera.height say",
-                    camera.width, camera.height
-                ),
+                bound: match request.camera {
+                    Some(_) => format!(
+                        "{}x{} pixels as camera.width and camera.height say",
+                        camera.width, camera.height
+                    ),
+                    None => format!(
+                        "{}x{} pixels, as of the RealSense D435 that is assumed where no camera is given; give camera",
+                        camera.width, camera.height
+                    ),
+                },
             });
         }
     }

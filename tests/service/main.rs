@@ -7,6 +7,7 @@ mod capture;
 mod cell_bounds;
 mod checks;
 mod determinism;
+mod doubts;
 mod events;
 mod execution_refusals;
 mod garbage;

@@ -29,7 +29,7 @@ def status_line(path: Path) -> str:
 
 
 def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path) -> str:
-    rows = labels.read(labels_path, inputs, config["statuses"].split(","), config["target"])
+    rows = labels.read(labels_path, inputs, config["statuses"].split(","), config["target"], config.get("sizes"))
     by_id = {row.id: row for row in rows}
     train, validation, test = ([by_id[id] for id in config["rows"][part]] for part in ("train", "validation", "test"))
     truth, groups = np.array([row.views for row in test]), [row.group for row in test]

@@ -45,6 +45,7 @@ def arguments(argv=None):
     add("--turns", type=int, choices=(1, TURNS), default=1, help="5: every object is held out once")
     add("--target", choices=labels.TARGETS, default="v_gain")
     add("--statuses", default="ok", help="label statuses to train on, by commas")
+    add("--sizes", type=int, help="learn from the first of each object's sizes alone (default: from all)")
     add("--latency-ms", type=float, default=40.0, help="bound of three images on two threads for the choice")
     add("--latency-again", action="store_true", help="time finished recipes once more, as on a quiet machine")
     return parser.parse_args(argv)
@@ -74,6 +75,7 @@ def pretrained(recipe, args, turn: int) -> Path:
 def train_options(recipe, args, turn: int, seed: int, out: Path) -> list[str]:
     given = ["--labels", args.labels, "--out", out, "--target", args.target, "--statuses", args.statuses, "--turn", turn,
              "--seed", seed, "--device", "cpu"]  # fmt: skip
+    given += ["--sizes", args.sizes] if args.sizes is not None else []
     return [str(word) for word in given] + recipes.flags(recipe.options)
 
 
@@ -82,7 +84,7 @@ def inputs_of(args, rows, size: int) -> Path:
     exact = args.inputs.with_name(f"{args.inputs.name}-{size}")
     if not (exact / "index.csv").is_file():
         return args.inputs
-    if labels.read(args.labels, exact, args.statuses.split(","), args.target) != rows:
+    if labels.read(args.labels, exact, args.statuses.split(","), args.target, args.sizes) != rows:
         raise SystemExit(f"{exact} does not hold the crops of the same rows as {args.inputs}")
     return exact
 
@@ -233,7 +235,7 @@ def write(path: Path, text: str):
 
 def main(argv=None):
     args = arguments(argv)
-    rows = labels.read(args.labels, args.inputs, args.statuses.split(","), args.target)
+    rows = labels.read(args.labels, args.inputs, args.statuses.split(","), args.target, args.sizes)
     args.out.mkdir(parents=True, exist_ok=True)
     results = {}
     for recipe in recipes.chosen(recipes.read(args.recipes), args.slow, args.only):

@@ -78,7 +78,8 @@ def main(argv=None):
     args.labels, args.inputs = args.labels or Path(where["labels"]), args.inputs or Path(where["inputs"])
     network = load_best(args.run)
     config = network.config
-    rows = {row.id: row for row in labels.read(args.labels, args.inputs, config["statuses"].split(","), config["target"])}
+    labelled = labels.read(args.labels, args.inputs, config["statuses"].split(","), config["target"], config.get("sizes"))
+    rows = {row.id: row for row in labelled}
     missing = [id for part in config["rows"].values() for id in part if id not in rows]
     if missing:
         raise SystemExit(f"{len(missing)} rows of the run are not in {args.labels} and {args.inputs}")

@@ -35,14 +35,17 @@ class Row:
     """Standard deviation of `views`."""
 
 
-def read(labels: Path, inputs: Path, statuses=("ok",), target="v_gain") -> list[Row]:
-    """The rows that have a label of one of `statuses` and a full set of crops, ordered by id."""
+def read(labels: Path, inputs: Path, statuses=("ok",), target="v_gain", sizes: int | None = None) -> list[Row]:
+    """The rows that have a label of one of `statuses` and a full set of crops, ordered by id; of the first `sizes` sizes
+    of each object, or of all."""
     with open(inputs / "index.csv", newline="") as file:
         ids = {tuple(line[column] for column in KEY_COLUMNS): line["row"] for line in csv.DictReader(file)}
     rows, without_crops = [], 0
     with open(labels, newline="") as file:
         for line in csv.DictReader(file):
             if line["status"] not in statuses or not line[target]:
+                continue
+            if sizes is not None and int(line["draw"]) >= sizes:
                 continue
             id = ids.get(tuple(line[column] for column in KEY_COLUMNS))
             if id is None or not all((inputs / id / f"{k}.png").is_file() for k in range(MAX_IMAGES)):

@@ -49,6 +49,7 @@ def arguments(argv=None):
     add("--range", choices=("labels", "paper"), default="labels", help="the range of answers")
     add("--target", choices=labels.TARGETS, default="v_gain", help="which label to learn")
     add("--statuses", default="ok", help="label statuses to train on, by commas")
+    add("--sizes", type=int, help="learn from the first of each object's sizes alone (default: from all)")
     add("--freeze", action=argparse.BooleanOptionalAction, default=None,
         help="leave the encoder as it is (default for encoders with ImageNet weights)")  # fmt: skip
     add("--variants", type=int, default=16, help="random shoots of each object with a frozen encoder")
@@ -96,6 +97,8 @@ def configuration(args, train, validation, test, weights: dict | None) -> dict:
     settings = {key: getattr(args, key) for key in chosen + (() if args.head == "ridge" else of_epochs)}
     views = [row.views for row in fitted(settings, train, validation)]
     low, high = PAPER_RANGE if args.range == "paper" else (int(min(views)), int(max(views)))
+    if args.sizes is not None:
+        settings["sizes"] = args.sizes
     return {
         **settings,
         "encoder_weights": weights and weights["fingerprint"],
@@ -204,7 +207,7 @@ def start(config: dict, run: Path) -> PRVNet:
 def train(args) -> dict:
     torch.set_num_threads(args.threads)
     torch.manual_seed(args.seed)
-    rows = labels.read(args.labels, args.inputs, args.statuses.split(","), args.target)
+    rows = labels.read(args.labels, args.inputs, args.statuses.split(","), args.target, args.sizes)
     parts = split(rows, args.turn)
     train_rows, validation_rows, test_rows = parts
     if len(train_rows) < 2 or not validation_rows:

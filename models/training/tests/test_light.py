@@ -34,6 +34,20 @@ def test_a_row_whose_size_is_another_one_has_no_crops(data, tmp_path):
     assert cells[0] not in {row.object for row in rows} and len(rows) == 52
 
 
+def test_only_the_first_sizes_are_read_where_that_is_asked(data, tmp_path):
+    header, *lines = (data / "labels.csv").read_text().splitlines()
+    # Every other row becomes its object's second size.
+    assert header.endswith(",draw")
+    marked = [f"{line.rpartition(',')[0]},{k % 2}" for k, line in enumerate(lines)]
+    (tmp_path / "labels.csv").write_text("\n".join([header, *marked]))
+
+    def count(**asked):
+        return len(labels.read(tmp_path / "labels.csv", data / "inputs", ("ok", "not_converged"), **asked))
+
+    assert count() == count(sizes=2) == 59
+    assert count(sizes=1) in (29, 30)
+
+
 def test_sizes_and_variants_of_an_object_share_a_fold():
     assert splits.group_of("a/b.sh3f/mug#red@0.09") == "a/b.sh3f/mug"
     assert splits.fold_of(splits.group_of("mug#1")) == splits.fold_of("mug")

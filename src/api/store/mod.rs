@@ -10,6 +10,7 @@
 //! way is not, since a power cut ends it anyway.
 
 mod atomic_file;
+pub(super) mod data_lock;
 mod execution_store;
 mod plan_store;
 
