@@ -96,7 +96,7 @@ pub fn run(args: &Args) -> CliResult {
         .collect();
     let missing = held_out.len() - found.len();
     let work: Vec<_> = found.into_iter().take(args.limit.unwrap_or(usize::MAX)).collect();
-    eprintln!("{} objects held out, {missing} of them not found; {} to judge", held_out.len(), work.len(),);
+    eprintln!("{} objects held out, {missing} of them not found; {} to judge", held_out.len(), work.len());
     if work.is_empty() {
         return Err("nothing to judge: no object of a held-out label was found in --objects".into());
     }
@@ -160,11 +160,10 @@ fn write_trials(args: &TableOneArgs, trials: &[Trial]) -> CliResult {
     let mut csv = csv::Writer::from_writer(Vec::new());
     csv.write_record(["object", "draw", "method", "views", "psnr_db", "ssim", "movement_m"])?;
     for trial in trials {
-        for Outcome { method, views, reconstruction: r } in &trial.outcomes {
+        for Outcome { method, views, reconstruction } in &trial.outcomes {
             let counts = [trial.draw.to_string(), method.word().to_owned(), views.to_string()];
-            let numbers =
-                [format!("{:.4}", r.psnr_db), format!("{:.6}", r.ssim), format!("{:.5}", r.movement_m)];
-            csv.write_record(std::iter::once(trial.object.clone()).chain(counts).chain(numbers))?;
+            let cells = std::iter::once(trial.object.clone()).chain(counts).chain(reconstruction.cells());
+            csv.write_record(cells)?;
         }
     }
     write(args, "trials.csv", &csv.into_inner()?)

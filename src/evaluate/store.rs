@@ -28,6 +28,13 @@ pub struct Reconstruction {
     pub movement_m: f64,
 }
 
+impl Reconstruction {
+    /// PSNR, SSIM and movement as files have them.
+    pub fn cells(&self) -> [String; 3] {
+        [format!("{:.4}", self.psnr_db), format!("{:.6}", self.ssim), format!("{:.5}", self.movement_m)]
+    }
+}
+
 /// An object at one of its sizes, and a number of views of it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Key {
@@ -155,16 +162,9 @@ impl ReconstructionStore {
 }
 
 fn cells(key: &Key, made: &Reconstruction) -> [String; COLUMNS.len()] {
-    [
-        key.object.clone(),
-        key.draw.to_string(),
-        key.radius.clone(),
-        key.nerfs.clone(),
-        key.views.to_string(),
-        format!("{:.4}", made.psnr_db),
-        format!("{:.6}", made.ssim),
-        format!("{:.5}", made.movement_m),
-    ]
+    let [psnr_db, ssim, movement_m] = made.cells();
+    let Key { object, draw, radius, nerfs, views } = key.clone();
+    [object, draw.to_string(), radius, nerfs, views.to_string(), psnr_db, ssim, movement_m]
 }
 
 fn line(cells: &[impl AsRef<[u8]>]) -> std::io::Result<Vec<u8>> {
