@@ -107,7 +107,7 @@ impl Trainer {
         let (mut kept, mut drawn, mut loss) = (0, 0, 0.0);
         // Views that show nothing may keep no sample at all: the rays end such a step.
         while kept < wanted && drawn < wanted {
-            let group: Vec<TrainingRay> = (0..self.group).map(|_| views.draw(&mut self.rng)).collect();
+            let group = views.draw(&mut self.rng, self.group);
             drawn += group.len();
             loss += self.add_gradients(group);
             kept += self.samples.len();

@@ -14,6 +14,7 @@ mod instruction_set;
 mod lanes;
 mod lines;
 mod portable;
+mod prefetch;
 
 #[cfg(target_arch = "x86_64")]
 pub(super) use avx2::Avx2;
@@ -25,6 +26,7 @@ pub(super) use instruction_set::Kind;
 pub(super) use lanes::{LANES, LINE, Lanes, Line, flat, flat_mut};
 pub(super) use lines::Lines;
 pub(super) use portable::Portable;
+pub(super) use prefetch::prefetch;
 
 /// Adding and taking away this constant rounds an `f32` below 2^22 to an integer;
 /// while it is added, that integer stands in the low bits.
