@@ -11,6 +11,7 @@ use prv::evaluate::plot::bars;
 use prv::evaluate::store::ReconstructionStore;
 use prv::evaluate::table_one::TableOne;
 use prv::evaluate::trial::{Outcome, Trial, TrialError, reconstruct};
+use prv::files::replace_unsynced;
 use prv::label::record::LabelRecord;
 use prv::label::store::read_labels;
 use prv::nerf::NerfSettings;
@@ -151,9 +152,7 @@ fn candidates(
 
 /// Replaces a file of the folder by a whole one.
 fn write(args: &TableOneArgs, name: &str, bytes: &[u8]) -> CliResult {
-    let partial = args.out.join(format!("{name}.part"));
-    std::fs::write(&partial, bytes)?;
-    Ok(std::fs::rename(partial, args.out.join(name))?)
+    Ok(replace_unsynced(&args.out.join(name), bytes)?)
 }
 
 fn write_trials(args: &TableOneArgs, trials: &[Trial]) -> CliResult {

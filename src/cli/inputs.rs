@@ -6,6 +6,7 @@ use std::sync::Mutex;
 
 use image::RgbaImage;
 use indicatif::{ProgressBar, ProgressStyle};
+use prv::files::replace_unsynced;
 use prv::geometry::Point;
 use prv::imaging::Camera;
 use prv::objects::{ObjectEntry, ObjectLookup};
@@ -147,20 +148,16 @@ fn is_complete(folder: &Path, count: usize, size: u32) -> bool {
 
 /// A killed run must leave no half of a file under its final name.
 fn save(image: &RgbaImage, path: &Path) -> CliResult {
-    let partial = path.with_extension("part");
-    image.save_with_format(&partial, image::ImageFormat::Png)?;
-    std::fs::rename(partial, path)?;
-    Ok(())
+    let mut png = std::io::Cursor::new(Vec::new());
+    image.write_to(&mut png, image::ImageFormat::Png)?;
+    Ok(replace_unsynced(path, png.get_ref())?)
 }
 
 fn write_index<'a>(out: &Path, rows: impl Iterator<Item = &'a LabelledRow>) -> CliResult {
-    let partial = out.join("index.part");
-    let mut writer = csv::Writer::from_path(&partial)?;
+    let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["row", KEY_COLUMNS[0], KEY_COLUMNS[1], KEY_COLUMNS[2]])?;
     for row in rows {
         writer.write_record([&row.id, &row.key[0], &row.key[1], &row.key[2]])?;
     }
-    writer.flush()?;
-    std::fs::rename(partial, out.join("index.csv"))?;
-    Ok(())
+    Ok(replace_unsynced(&out.join("index.csv"), &writer.into_inner()?)?)
 }

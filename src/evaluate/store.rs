@@ -9,6 +9,7 @@ use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use crate::files::replace;
 use crate::label::record::LabelRecord;
 use crate::nerf::NerfSettings;
 
@@ -115,12 +116,8 @@ impl ReconstructionStore {
         }
         // Written again where a line is missing or cut; the file is small.
         if whole.is_empty() || whole.len() < text.len() {
-            let partial = path.with_extension("part");
             let kept = if whole.is_empty() { header.as_slice() } else { whole.as_bytes() };
-            let mut file = File::create(&partial).map_err(io)?;
-            let written = file.write_all(kept);
-            written.and_then(|()| file.sync_all()).map_err(io)?;
-            std::fs::rename(&partial, path).map_err(io)?;
+            replace(path, kept).map_err(io)?;
         }
         let file = OpenOptions::new().append(true).open(path).map_err(io)?;
         Ok(ReconstructionStore { file, path: path.to_owned(), known })

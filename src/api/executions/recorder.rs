@@ -7,7 +7,8 @@ use serde_json::json;
 
 use super::Entry;
 use crate::api::convert::pose_json;
-use crate::api::store::{ExecutionStore, replace_unsynced};
+use crate::api::store::ExecutionStore;
+use crate::files::replace_unsynced;
 use crate::geometry::Pose;
 use crate::imaging::composite;
 use crate::simulate::{Observer, Photo, SimulateError};

@@ -8,7 +8,7 @@ use utoipa::ToSchema;
 use super::off_thread;
 use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
-use crate::api::store::replace;
+use crate::files::replace;
 
 /// What works.
 #[derive(Clone, Debug, Serialize, ToSchema)]

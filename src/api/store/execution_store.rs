@@ -7,8 +7,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use super::{is_id, replace, replace_unsynced, sync_files};
+use super::is_id;
 use crate::api::wire::{CameraJson, ExecutionJson, ExecutionStateJson, PoseJson};
+use crate::files::{replace, replace_unsynced, sync_files};
 
 /// All that is known about a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -4,7 +4,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::{create_once, is_id, replace};
+use super::is_id;
+use crate::files::{create_once, replace};
 
 /// Plans as files.
 #[derive(Clone, Debug)]

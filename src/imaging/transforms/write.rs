@@ -7,6 +7,7 @@ use super::axes::matrix_of;
 use super::file::{Frame, Intrinsics, Transforms};
 use super::intrinsics::fields_of;
 use super::{SceneCube, TransformsError};
+use crate::files::replace_unsynced;
 use crate::geometry::Pose;
 use crate::imaging::{Camera, PosedImage};
 
@@ -51,10 +52,8 @@ pub fn write_transforms(
     let path = dir.join("transforms.json");
     let json = serde_json::to_string_pretty(&content)
         .map_err(|source| TransformsError::Json { path: path.clone(), source })?;
-    // A reader never sees half a file.
-    let part = dir.join("transforms.json.part");
-    let written = fs::write(&part, json + "\n").and_then(|()| fs::rename(&part, &path));
-    written.map_err(|source| TransformsError::Write { path, source })
+    replace_unsynced(&path, (json + "\n").as_bytes())
+        .map_err(|source| TransformsError::Write { path, source })
 }
 
 /// Writes every image as `dir/images/0000.png` and so on, then `dir/transforms.json`.

@@ -1,4 +1,5 @@
-//! Files that are whole or absent.
+//! Files that are whole or absent: written beside their place and renamed, so that a reader or a crash sees the
+//! old file, the new one or none, never a part.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -7,19 +8,35 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 static COUNTER: AtomicU64 = AtomicU64::new(0);
 
-/// Writes `bytes` to a file of its own beside `path`.
-fn write_beside(path: &Path, bytes: &[u8]) -> io::Result<(PathBuf, File)> {
-    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    let number = COUNTER.fetch_add(1, Ordering::Relaxed);
-    let temporary = path.with_file_name(format!(".{name}.{}.{number}", std::process::id()));
-    let mut file = File::create(&temporary)?;
-    file.write_all(bytes)?;
-    Ok((temporary, file))
+/// A file beside its place; gone on drop unless it was moved there.
+struct Beside {
+    path: PathBuf,
+    file: File,
+}
+
+impl Beside {
+    fn write(place: &Path, bytes: &[u8]) -> io::Result<Self> {
+        let name = place.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        let number = COUNTER.fetch_add(1, Ordering::Relaxed);
+        let path = place.with_file_name(format!(".{name}.{}.{number}", std::process::id()));
+        let mut beside = Self { file: File::create(&path)?, path };
+        beside.file.write_all(bytes)?;
+        Ok(beside)
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        // After a rename there is nothing of this name.
+        let _ = fs::remove_file(&self.path);
+    }
 }
 
 /// A rename is durable once its directory is synced.
 fn sync_directory(path: &Path) -> io::Result<()> {
     match path.parent() {
+        // A bare name stands in the working directory.
+        Some(directory) if directory.as_os_str().is_empty() => File::open(".")?.sync_all(),
         Some(directory) => File::open(directory)?.sync_all(),
         None => Ok(()),
     }
@@ -30,9 +47,9 @@ fn sync_directory(path: &Path) -> io::Result<()> {
 /// # Errors
 /// Those of the file system.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let (temporary, file) = write_beside(path, bytes)?;
-    file.sync_all()?;
-    fs::rename(&temporary, path)?;
+    let beside = Beside::write(path, bytes)?;
+    beside.file.sync_all()?;
+    fs::rename(&beside.path, path)?;
     sync_directory(path)
 }
 
@@ -41,8 +58,8 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// Those of the file system.
 pub fn replace_unsynced(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let (temporary, _) = write_beside(path, bytes)?;
-    fs::rename(&temporary, path)
+    let beside = Beside::write(path, bytes)?;
+    fs::rename(&beside.path, path)
 }
 
 /// Makes every file of `directory` safe from a power cut.
@@ -65,11 +82,9 @@ pub fn sync_files(directory: &Path) -> io::Result<()> {
 /// # Errors
 /// Those of the file system.
 pub fn create_once(path: &Path, bytes: Vec<u8>) -> io::Result<(Vec<u8>, bool)> {
-    let (temporary, file) = write_beside(path, &bytes)?;
-    file.sync_all()?;
-    let linked = fs::hard_link(&temporary, path);
-    fs::remove_file(&temporary)?;
-    match linked {
+    let beside = Beside::write(path, &bytes)?;
+    beside.file.sync_all()?;
+    match fs::hard_link(&beside.path, path) {
         Ok(()) => {
             sync_directory(path)?;
             Ok((bytes, true))
@@ -98,5 +113,17 @@ mod tests {
         });
         assert!(seen.iter().all(|bytes| *bytes == seen[0]));
         assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_cannot_be_put_in_its_place_leaves_nothing_beside_it() {
+        let directory = tempfile::tempdir().unwrap();
+        let place = directory.path().join("taken");
+        fs::create_dir(&place).unwrap();
+        assert!(replace(&place, b"x").is_err());
+        assert!(replace_unsynced(&place, b"x").is_err());
+        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+        replace(&directory.path().join("free"), b"x").unwrap();
+        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 2);
     }
 }
