@@ -5,7 +5,7 @@ use std::io;
 use std::sync::Arc;
 
 use super::config::ServiceConfig;
-use super::executions::Executions;
+use super::executions::{Executions, Sources};
 use super::heavy::HeavyWork;
 use super::planner::Planner;
 use super::store::{ExecutionStore, PlanStore, data_lock};
@@ -28,14 +28,15 @@ pub struct AppState {
 }
 
 impl AppState {
-    /// Opens the stores and loads the model; says what is missing.
+    /// Opens the stores and loads the model, within the runtime; says what is missing.
     ///
     /// # Errors
     /// A data directory that cannot be used, or that another service uses.
     pub fn open(config: ServiceConfig) -> io::Result<Self> {
         let data_lock = data_lock::lock(&config.data_dir)?;
         let plans = PlanStore::open(&config.data_dir)?;
-        let executions = Executions::open(ExecutionStore::open(&config.data_dir)?, config.arms)?;
+        let sources = Sources { plans: plans.clone(), objects_dir: config.objects_dir.clone() };
+        let executions = Executions::open(ExecutionStore::open(&config.data_dir)?, sources, config.arms)?;
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
         let planner = Planner::load(config.model.as_deref(), threads, config.workers.max(1));
         match planner.missing() {

@@ -18,5 +18,5 @@ pub use execute::{End, Observer, Photo, Photograph, Run, execute};
 pub use flight::{FLIGHT_SETTLE_S, FLIGHT_SPEED_M_PER_S, Flight};
 pub use following::Following;
 pub use pace::{MAX_SPEED_FACTOR, MIN_SPEED_FACTOR};
-pub use photo_set::write_photo_set;
+pub use photo_set::{photo_set_text, write_photo_set};
 pub use rendered_object::RenderedObject;

@@ -20,8 +20,7 @@ pub struct Entry {
     stopping: AtomicBool,
 }
 
-/// Whether a run is over.
-pub fn is_over(state: ExecutionStateJson) -> bool {
+fn is_over(state: ExecutionStateJson) -> bool {
     !matches!(state, ExecutionStateJson::Queued | ExecutionStateJson::Running)
 }
 
@@ -46,10 +45,23 @@ impl Entry {
         self.lock().clone()
     }
 
-    /// The event with this index, and whether the run is over.
+    /// The event with this index, and whether no more will come: the run is over, or it waits for the
+    /// next life of the service.
     pub fn event(&self, index: usize) -> (Option<(String, Value)>, bool) {
         let record = self.lock();
-        (record.events.get(index).cloned(), is_over(record.execution.state))
+        let state = record.execution.state;
+        let waits_on = state == ExecutionStateJson::Queued && self.stopping.load(Ordering::Relaxed);
+        (record.events.get(index).cloned(), is_over(state) || waits_on)
+    }
+
+    /// Whether the run is over.
+    pub fn is_over(&self) -> bool {
+        is_over(self.lock().execution.state)
+    }
+
+    /// Whether the arm moves.
+    pub(super) fn is_moving(&self) -> bool {
+        self.lock().execution.state == ExecutionStateJson::Running
     }
 
     /// Tells of changes; the value counts them.
@@ -66,7 +78,7 @@ impl Entry {
         store: &ExecutionStore,
         change: impl FnOnce(&mut ExecutionRecord),
     ) -> io::Result<()> {
-        let _writing = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
+        let _writing = self.writing();
         let mut record = self.record();
         change(&mut record);
         store.save(&record)?;
@@ -82,18 +94,68 @@ impl Entry {
     }
 
     /// Goes to `state` unless the run is over; false if it is. A store that fails is logged: the run
-    /// is found interrupted after a restart.
+    /// is found as it was after a restart.
     pub(super) fn advance(
         &self,
         store: &ExecutionStore,
         state: ExecutionStateJson,
         error: Option<String>,
     ) -> bool {
-        let _writing = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut record = self.record();
-        if is_over(record.execution.state) {
-            return false;
+        let _writing = self.writing();
+        let goes_on = !self.is_over();
+        if goes_on {
+            self.go(store, state, error);
         }
+        goes_on
+    }
+
+    /// From `queued` to `running`; false where it may not: it was cancelled, or the service ends.
+    pub(super) fn start_moving(&self, store: &ExecutionStore) -> bool {
+        let _writing = self.writing();
+        let starts = self.may_start();
+        if starts {
+            self.go(store, ExecutionStateJson::Running, None);
+        }
+        starts
+    }
+
+    /// Whether it waits and nothing keeps it from moving.
+    pub(super) fn may_start(&self) -> bool {
+        self.execution().state == ExecutionStateJson::Queued && !self.is_to_stop()
+    }
+
+    /// Asks the run to stop; one that waits ends at once. False when it is over.
+    pub(super) fn cancel(&self, store: &ExecutionStore) -> bool {
+        let _writing = self.writing();
+        let goes_on = !self.is_over();
+        if self.execution().state == ExecutionStateJson::Queued {
+            self.go(store, ExecutionStateJson::Cancelled, None);
+        } else if goes_on {
+            self.cancelled.store(true, Ordering::Relaxed);
+        }
+        goes_on
+    }
+
+    /// Asks the run to stop because the service does; one that waits never starts in this life of it.
+    pub(super) fn stop(&self) {
+        let _writing = self.writing();
+        self.stopping.store(true, Ordering::Relaxed);
+        self.notify();
+    }
+
+    /// Whether a client has asked it to stop.
+    pub(super) fn is_cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
+    }
+
+    /// Whether anybody has.
+    pub(super) fn is_to_stop(&self) -> bool {
+        self.is_cancelled() || self.stopping.load(Ordering::Relaxed)
+    }
+
+    /// Goes to `state`. For those who hold `writing`.
+    fn go(&self, store: &ExecutionStore, state: ExecutionStateJson, error: Option<String>) {
+        let mut record = self.record();
         record.execution.state = state;
         record.execution.error.clone_from(&error);
         record.events.push(("state".to_owned(), json!({"state": state, "error": error})));
@@ -102,28 +164,10 @@ impl Entry {
         }
         *self.lock() = record;
         self.notify();
-        true
     }
 
-    /// Asks the run to stop.
-    pub(super) fn cancel(&self) {
-        self.cancelled.store(true, Ordering::Relaxed);
-    }
-
-    /// Asks the run to stop because the service does.
-    pub(super) fn stop(&self) {
-        self.stopping.store(true, Ordering::Relaxed);
-    }
-
-    /// The state that a stopped run ends in; `None` while it may go on.
-    pub(super) fn stopped(&self) -> Option<ExecutionStateJson> {
-        if self.cancelled.load(Ordering::Relaxed) {
-            Some(ExecutionStateJson::Cancelled)
-        } else if self.stopping.load(Ordering::Relaxed) {
-            Some(ExecutionStateJson::Interrupted)
-        } else {
-            None
-        }
+    fn writing(&self) -> MutexGuard<'_, ()> {
+        self.writing.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn notify(&self) {

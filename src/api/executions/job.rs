@@ -1,13 +1,17 @@
 //! What a run needs, and the run.
 
-use super::Entry;
 use super::recorder::Recorder;
+use super::{Entry, transforms};
 use crate::api::store::ExecutionStore;
 use crate::api::wire::ExecutionStateJson;
-use crate::geometry::Point;
+use crate::files::replace_unsynced;
 use crate::imaging::Camera;
 use crate::render::Mesh;
-use crate::simulate::{Carrier, End, RenderedObject, Run, SimulateError, execute, write_photo_set};
+use crate::simulate::{Carrier, End, RenderedObject, Run, SimulateError, execute};
+
+/// Why a run is interrupted that the end of the service stops.
+const STOPPED: &str =
+    "the service was stopped while the arm moved; photos taken so far stay, a new run starts over";
 
 /// A run, ready to go.
 pub struct Job {
@@ -19,10 +23,6 @@ pub struct Job {
     pub camera: Camera,
     /// Opaque background; `None` keeps alpha.
     pub background: Option<[u8; 3]>,
-    /// Centre of the object's sphere, which transforms.json centres.
-    pub center_in_base: Point,
-    /// Its radius, metres.
-    pub object_radius_m: f64,
     /// Simulated seconds a second.
     pub speed_factor: f64,
 }
@@ -30,16 +30,15 @@ pub struct Job {
 impl Job {
     /// Runs on the calling thread to the end; the entry tells how it went.
     pub(super) fn run(self, entry: &Entry, store: &ExecutionStore) {
-        if let Some(state) = entry.stopped() {
-            entry.advance(store, state, None);
+        if !entry.start_moving(store) {
             return;
         }
-        if !entry.advance(store, ExecutionStateJson::Running, None) {
-            return;
-        }
+        // A run that has moved is not taken up again.
+        store.forget_request(&entry.execution().id);
         let (state, error) = match self.carry_out(entry, store) {
             Ok(End::Done) => (ExecutionStateJson::Done, None),
-            Ok(End::Cancelled) => (entry.stopped().unwrap_or(ExecutionStateJson::Cancelled), None),
+            Ok(End::Cancelled) if entry.is_cancelled() => (ExecutionStateJson::Cancelled, None),
+            Ok(End::Cancelled) => (ExecutionStateJson::Interrupted, Some(STOPPED.to_owned())),
             Err(error) => (ExecutionStateJson::Failed, Some(error.to_string())),
         };
         entry.advance(store, state, error);
@@ -48,19 +47,13 @@ impl Job {
     fn carry_out(&self, entry: &Entry, store: &ExecutionStore) -> Result<End, SimulateError> {
         let id = entry.execution().id;
         let object = RenderedObject::new(&self.mesh, self.camera);
-        let background = self.background;
-        let directory = store.path(&id);
-        let mut recorder = Recorder { id, entry, store, background, photos: Vec::new() };
+        let path = store.transforms(&id);
+        let mut recorder = Recorder { id, entry, store, background: self.background };
         let run = Run { carrier: &self.carrier, camera: &object, speed_factor: self.speed_factor };
         let end = execute(&run, &mut recorder)?;
-        if !recorder.photos.is_empty() {
-            write_photo_set(
-                &directory,
-                &self.camera,
-                &recorder.photos,
-                &self.center_in_base,
-                self.object_radius_m,
-            )?;
+        let fail = |reason: String| SimulateError::Write { path: path.display().to_string(), reason };
+        if let Some(text) = transforms(&entry.record()).map_err(|problem| fail(problem.detail.clone()))? {
+            replace_unsynced(&path, text.as_bytes()).map_err(|error| fail(error.to_string()))?;
         }
         Ok(end)
     }

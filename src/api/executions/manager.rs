@@ -3,47 +3,83 @@
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Arc, PoisonError, RwLock};
+use std::time::Duration;
 
+use axum::http::StatusCode;
+use serde_json::json;
 use tokio::sync::Semaphore;
+use tokio::sync::mpsc::{UnboundedSender, unbounded_channel};
 
-use super::entry::{Entry, is_over};
-use super::job::Job;
+use super::Entry;
+use super::prepare::Sources;
+use super::queue::{Waiting, hand_out_arms};
 use crate::api::problem::Problem;
 use crate::api::store::{ExecutionRecord, ExecutionStore};
-use crate::api::wire::ExecutionStateJson;
+use crate::api::wire::{CreateExecution, ExecutionStateJson};
 
 /// Runs that may wait for an arm.
 const LONGEST_QUEUE: usize = 64;
+/// Why a run is interrupted whose arm moved when the process ended.
+const ENDED: &str = "the service ended while the arm moved; photos taken so far stay, a new run starts over";
+/// Why a run is interrupted that waited, and of which the request was not stored.
+const NOT_STORED: &str =
+    "it waited when the service ended, and its request was not stored; a new run starts over";
 
 /// All runs; cheap to clone.
 #[derive(Clone)]
 pub struct Executions {
     store: ExecutionStore,
+    sources: Sources,
     entries: Arc<RwLock<BTreeMap<String, Arc<Entry>>>>,
+    queue: UnboundedSender<Waiting>,
     arms: Arc<Semaphore>,
     places: Arc<Semaphore>,
 }
 
 impl Executions {
-    /// Reads the stored runs; those that were under way are marked interrupted.
+    /// Reads the stored runs, within the runtime. Those that waited for an arm wait again, in the order they
+    /// were made; those whose arm moved are marked interrupted.
     ///
     /// # Errors
     /// Those of the file system.
-    pub fn open(store: ExecutionStore, arms: usize) -> io::Result<Self> {
-        let mut entries = BTreeMap::new();
-        for record in store.load_all()? {
-            let id = record.execution.id.clone();
-            let entry = Entry::new(record);
-            entry.advance(&store, ExecutionStateJson::Interrupted, None);
-            entries.insert(id, Arc::new(entry));
-        }
+    pub fn open(store: ExecutionStore, sources: Sources, arms: usize) -> io::Result<Self> {
         let arms = arms.max(1);
-        Ok(Self {
-            store,
-            entries: Arc::new(RwLock::new(entries)),
+        let (queue, waiting) = unbounded_channel();
+        let executions = Self {
+            sources: sources.clone(),
+            entries: Arc::new(RwLock::new(BTreeMap::new())),
+            queue,
             arms: Arc::new(Semaphore::new(arms)),
             places: Arc::new(Semaphore::new(arms + LONGEST_QUEUE)),
-        })
+            store: store.clone(),
+        };
+        // Sorted by id, which is the order they were made.
+        for record in store.load_all()? {
+            executions.take_up(record);
+        }
+        tokio::spawn(hand_out_arms(waiting, executions.arms.clone(), store, sources));
+        Ok(executions)
+    }
+
+    /// Takes up a run of an earlier life of the service.
+    fn take_up(&self, record: ExecutionRecord) {
+        let (id, state) = (record.execution.id.clone(), record.execution.state);
+        let entry = Arc::new(Entry::new(record));
+        if state == ExecutionStateJson::Queued && self.store.has_request(&id) {
+            let place = self.places.clone().try_acquire_owned().ok();
+            self.enqueue(Waiting { entry: entry.clone(), job: None, place });
+        } else {
+            let why = if state == ExecutionStateJson::Queued { NOT_STORED } else { ENDED };
+            if entry.advance(&self.store, ExecutionStateJson::Interrupted, Some(why.to_owned())) {
+                self.store.forget_request(&id);
+            }
+        }
+        self.entries.write().unwrap_or_else(PoisonError::into_inner).insert(id, entry);
+    }
+
+    fn enqueue(&self, waiting: Waiting) {
+        // Nobody hands out arms any more where the service is stopping: the run waits for its next life.
+        let _ = self.queue.send(waiting);
     }
 
     /// The run with this id.
@@ -61,39 +97,24 @@ impl Executions {
         &self.store
     }
 
-    /// Queues a run. `record` gets its id here. Writes files: for threads that may block, within the
-    /// runtime.
+    /// Checks and queues a run. Reads and writes files: for threads that may block.
     ///
     /// # Errors
-    /// 503 when too many wait; storage problems.
-    pub fn start(&self, mut record: ExecutionRecord, job: Job) -> Result<Arc<Entry>, Problem> {
+    /// Those of [`Sources::prepare`]; 503 when too many wait; storage problems.
+    pub fn start(&self, json: &CreateExecution) -> Result<Arc<Entry>, Problem> {
+        let (mut record, job) = self.sources.prepare(json, &self.store.scratch())?;
         let place = self.places.clone().try_acquire_owned().map_err(|_| {
             Problem::unavailable("overloaded", format!("{LONGEST_QUEUE} executions are waiting"), Some(10))
         })?;
         let id = self.store.create()?;
         record.execution.id = id.clone();
-        record.events.push(("state".to_owned(), serde_json::json!({"state": "queued", "error": null})));
+        record.events.push(("state".to_owned(), json!({"state": "queued", "error": null})));
+        // The request first: a run that is found waiting can be taken up.
+        self.store.save_request(&id, json)?;
         self.store.save(&record)?;
         let entry = Arc::new(Entry::new(record));
         self.entries.write().unwrap_or_else(PoisonError::into_inner).insert(id, entry.clone());
-
-        let (arms, store, running) = (self.arms.clone(), self.store.clone(), entry.clone());
-        let kept = store.clone();
-        tokio::spawn(async move {
-            let _place = place;
-            let Ok(arm) = arms.acquire_owned().await else { return };
-            let for_run = running.clone();
-            let ended = tokio::task::spawn_blocking(move || {
-                let _arm = arm;
-                job.run(&for_run, &store);
-            })
-            .await;
-            if let Err(error) = ended {
-                tracing::error!(%error, "a run broke off");
-                let text = format!("the run broke off: {error}");
-                running.advance(&kept, ExecutionStateJson::Failed, Some(text));
-            }
-        });
+        self.enqueue(Waiting { entry: entry.clone(), job: Some(Box::new(job)), place: Some(place) });
         Ok(entry)
     }
 
@@ -102,21 +123,20 @@ impl Executions {
     /// # Errors
     /// 409 when it is over; storage problems.
     pub fn cancel(&self, entry: &Entry) -> Result<(), Problem> {
-        let execution = entry.execution();
-        if is_over(execution.state) {
-            let state = serde_json::to_value(execution.state).unwrap_or_default();
-            return Err(Problem::field("execution_over", "state", state, "queued or running")
-                .with_status(axum::http::StatusCode::CONFLICT));
+        if !entry.cancel(&self.store) {
+            return Err(conflict("execution_over", entry, "queued or running"));
         }
-        entry.cancel();
-        if execution.state == ExecutionStateJson::Queued {
-            entry.advance(&self.store, ExecutionStateJson::Cancelled, None);
+        let execution = entry.execution();
+        if execution.state == ExecutionStateJson::Cancelled {
+            self.store.forget_request(&execution.id);
         }
         Ok(())
     }
 
-    /// Stops every run and waits until they have, at most `patience`.
-    pub async fn shut_down(&self, patience: std::time::Duration) {
+    /// Stops every run and waits until they have, at most `patience`. Those that wait for an arm stay
+    /// queued, for the next life of the service.
+    pub async fn shut_down(&self, patience: Duration) {
+        self.arms.close();
         let entries: Vec<Arc<Entry>> =
             self.entries.read().unwrap_or_else(PoisonError::into_inner).values().cloned().collect();
         let deadline = tokio::time::Instant::now() + patience;
@@ -125,15 +145,21 @@ impl Executions {
         }
         for entry in entries {
             let mut changes = entry.changes();
-            let over = async {
-                while !is_over(entry.execution().state) {
+            let stands = async {
+                while entry.is_moving() {
                     if changes.changed().await.is_err() {
                         break;
                     }
                 }
             };
             // What does not stop in time is found interrupted at the next start.
-            let _ = tokio::time::timeout_at(deadline, over).await;
+            let _ = tokio::time::timeout_at(deadline, stands).await;
         }
     }
+}
+
+/// 409: the run's state forbids it.
+fn conflict(code: &str, entry: &Entry, bound: &str) -> Problem {
+    let state = serde_json::to_value(entry.execution().state).unwrap_or_default();
+    Problem::field(code, "state", state, bound).with_status(StatusCode::CONFLICT)
 }

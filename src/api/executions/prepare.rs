@@ -1,6 +1,6 @@
 //! From a request to a run that is ready to go.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::{Job, load_object};
 use crate::api::convert;
@@ -8,7 +8,7 @@ use crate::api::problem::Problem;
 use crate::api::store::{ExecutionRecord, PlanStore};
 use crate::api::wire::{
     BackgroundJson, CreateExecution, ExecutionJson, ExecutionStateJson, JointsJson, PlanAnswer,
-    PlanRequestJson, ProgressJson, ViewStatusJson, WarningJson,
+    PlanRequestJson, ProgressJson, SphereJson, ViewStatusJson, WarningJson,
 };
 use crate::geometry::Pose;
 use crate::imaging::Camera;
@@ -19,11 +19,27 @@ use crate::simulate::{Carrier, Flight, Following, MAX_SPEED_FACTOR, MIN_SPEED_FA
 /// Most pixels of a simulated photo.
 const MAX_PIXELS: u64 = convert::MAX_IMAGE_PIXELS;
 
-/// Checks the request and loads plan and object. The record has no id yet.
-///
-/// # Errors
-/// 404 for an unknown plan, 422 for what cannot be executed.
-pub fn prepare(
+/// Where plans and objects come from.
+#[derive(Clone)]
+pub struct Sources {
+    /// Stored plans.
+    pub plans: PlanStore,
+    /// The directory below which runs may name object files.
+    pub objects_dir: Option<PathBuf>,
+}
+
+impl Sources {
+    /// Checks the request and loads plan and object; an uploaded one goes through a file in `scratch`.
+    /// The record has no id yet.
+    ///
+    /// # Errors
+    /// 404 for an unknown plan, 422 for what cannot be executed.
+    pub fn prepare(&self, json: &CreateExecution, scratch: &Path) -> Result<(ExecutionRecord, Job), Problem> {
+        prepare(json, &self.plans, self.objects_dir.as_deref(), scratch)
+    }
+}
+
+fn prepare(
     json: &CreateExecution,
     plans: &PlanStore,
     objects_dir: Option<&Path>,
@@ -75,6 +91,7 @@ pub fn prepare(
             error: None,
         },
         camera: convert::camera_json(&camera),
+        object: Some(SphereJson { center: object.center_in_base.into(), radius: object.radius_m }),
         image_poses: Vec::new(),
         events: Vec::new(),
     };
@@ -87,8 +104,6 @@ pub fn prepare(
             BackgroundJson::White => Some([255; 3]),
             BackgroundJson::Black => Some([0; 3]),
         },
-        center_in_base: object.center_in_base,
-        object_radius_m: object.radius_m,
         speed_factor: json.speed_factor,
     };
     Ok((record, job))

@@ -1,15 +1,12 @@
 //! Puts what happens in a run into its record and its directory.
 
-use std::path::PathBuf;
-
 use image::{DynamicImage, ImageFormat};
 use serde_json::json;
 
-use super::Entry;
+use super::{Entry, photo_file};
 use crate::api::convert::pose_json;
 use crate::api::store::ExecutionStore;
 use crate::files::replace_unsynced;
-use crate::geometry::Pose;
 use crate::imaging::composite;
 use crate::simulate::{Observer, Photo, SimulateError};
 
@@ -19,8 +16,6 @@ pub(super) struct Recorder<'a> {
     pub(super) entry: &'a Entry,
     pub(super) store: &'a ExecutionStore,
     pub(super) background: Option<[u8; 3]>,
-    /// View, pose and file of each photo.
-    pub(super) photos: Vec<(PathBuf, Pose)>,
 }
 
 impl Observer for Recorder<'_> {
@@ -34,8 +29,8 @@ impl Observer for Recorder<'_> {
     }
 
     fn took(&mut self, photo: Photo<'_>) -> Result<(), SimulateError> {
-        let name = PathBuf::from(format!("images/{:03}.png", photo.view));
-        let path = self.store.path(&self.id).join(&name);
+        let view = photo.view as u32;
+        let path = self.store.path(&self.id).join(photo_file(view));
         let fail = |reason: String| SimulateError::Write { path: path.display().to_string(), reason };
         let image: DynamicImage = match self.background {
             None => photo.image.clone().into(),
@@ -44,9 +39,7 @@ impl Observer for Recorder<'_> {
         let mut bytes = std::io::Cursor::new(Vec::new());
         image.write_to(&mut bytes, ImageFormat::Png).map_err(|error| fail(error.to_string()))?;
         replace_unsynced(&path, bytes.get_ref()).map_err(|error| fail(error.to_string()))?;
-        self.photos.push((name, photo.base_from_camera));
         let stored = self.entry.update(self.store, |record| {
-            let view = photo.view as u32;
             record.execution.images.push(view);
             record.image_poses.push(pose_json(&photo.base_from_camera));
             let progress = &mut record.execution.progress;
@@ -62,6 +55,6 @@ impl Observer for Recorder<'_> {
     }
 
     fn cancelled(&self) -> bool {
-        self.entry.stopped().is_some()
+        self.entry.is_to_stop()
     }
 }

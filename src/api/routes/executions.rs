@@ -8,7 +8,6 @@ use axum::response::{IntoResponse, Response};
 use super::off_thread;
 use super::refusals::{BodyRefusals, RunRefusals};
 use super::run::{FoundRun, RunId};
-use crate::api::executions::prepare;
 use crate::api::extract::JsonBody;
 use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
@@ -29,13 +28,8 @@ use crate::api::wire::{CreateExecution, ExecutionJson, ExecutionList};
 pub async fn create(State(app): State<AppState>, request: Request) -> Result<Response, Problem> {
     let admission = app.heavy.admit()?;
     let JsonBody(json) = JsonBody::<CreateExecution>::from_request(request, &app).await?;
-    let (plans, config, executions) = (app.plans.clone(), app.config.clone(), app.executions.clone());
-    let work = move || {
-        let scratch = executions.store().scratch();
-        let (record, job) = prepare(&json, &plans, config.objects_dir.as_deref(), &scratch)?;
-        Ok(executions.start(record, job)?.execution())
-    };
-    let execution = app.heavy.run(admission, work).await?;
+    let executions = app.executions.clone();
+    let execution = app.heavy.run(admission, move || Ok(executions.start(&json)?.execution())).await?;
     let location = HeaderValue::from_str(&format!("/v1/executions/{}", execution.id));
     let mut response = (StatusCode::ACCEPTED, Json(execution)).into_response();
     if let Ok(location) = location {

@@ -2,7 +2,7 @@
 
 use axum::Json;
 use axum::extract::State;
-use axum::http::{HeaderValue, header};
+use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -12,6 +12,7 @@ use utoipa::IntoParams;
 use super::json_bytes;
 use super::refusals::RunRefusals;
 use super::run::{FoundRun, RunId};
+use crate::api::executions::{photo_file, transforms as transforms_of};
 use crate::api::extract::PathParam;
 use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
@@ -79,7 +80,7 @@ pub async fn get(
     Ok(response)
 }
 
-/// Cameras and poses of all photos as instant-ngp and nerfstudio read them.
+/// Cameras and poses of all photos taken so far as instant-ngp and nerfstudio read them.
 #[utoipa::path(
     get, path = "/v1/executions/{id}/transforms.json", tag = "executions", params(RunId),
     responses(
@@ -91,18 +92,31 @@ pub async fn transforms(
     State(app): State<AppState>,
     FoundRun { id, entry }: FoundRun,
 ) -> Result<Response, Problem> {
-    let state = entry.execution().state;
-    match tokio::fs::read(app.executions.store().path(&id).join("transforms.json")).await {
-        Ok(bytes) => Ok(json_bytes(bytes)),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            let state = serde_json::to_value(state).unwrap_or_default();
-            Err(Problem::field("no_transforms", "state", state, "done, or cancelled after a photo")
-                .with_status(axum::http::StatusCode::NOT_FOUND))
+    match tokio::fs::read(app.executions.store().transforms(&id)).await {
+        Ok(bytes) => return Ok(json_bytes(bytes)),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
+        Err(error) => return Err(error.into()),
+    }
+    // A run under way, or one that was killed: its record knows every photo.
+    let record = entry.record();
+    match transforms_of(&record)? {
+        Some(text) => Ok(json_bytes(text)),
+        None => {
+            let state = serde_json::to_value(record.execution.state).unwrap_or_default();
+            Err(Problem::field("no_transforms", "state", state, "that of a run that has taken a photo")
+                .with_status(StatusCode::NOT_FOUND))
         }
-        Err(error) => Err(error.into()),
     }
 }
 
 async fn read(app: &AppState, id: &str, view: u32) -> Result<Vec<u8>, Problem> {
-    Ok(tokio::fs::read(app.executions.store().images(id).join(format!("{view:03}.png"))).await?)
+    match tokio::fs::read(app.executions.store().path(id).join(photo_file(view))).await {
+        Ok(bytes) => Ok(bytes),
+        // Deleted meanwhile.
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            let bound = "a view whose photo is still there";
+            Err(Problem::not_found("unknown_image", "view", &view.to_string(), bound))
+        }
+        Err(error) => Err(error.into()),
+    }
 }

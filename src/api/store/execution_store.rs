@@ -8,8 +8,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use serde::{Deserialize, Serialize};
 
 use super::is_id;
-use crate::api::wire::{CameraJson, ExecutionJson, ExecutionStateJson, PoseJson};
+use crate::api::wire::{
+    CameraJson, CreateExecution, ExecutionJson, ExecutionStateJson, PoseJson, SphereJson,
+};
 use crate::files::{replace, replace_unsynced, sync_files};
+
+/// Begins the names of directories for passing files.
+const SCRATCH: &str = ".scratch-";
 
 /// All that is known about a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -18,6 +23,9 @@ pub struct ExecutionRecord {
     pub execution: ExecutionJson,
     /// The camera of its images.
     pub camera: CameraJson,
+    /// The object's sphere in the base frame, metres; records of version 0.4.0 and before may lack it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub object: Option<SphereJson>,
     /// `base_from_camera` of each image, in the order of `execution.images`.
     pub image_poses: Vec<PoseJson>,
     /// Events so far: name and data; the index is the event's id.
@@ -31,13 +39,21 @@ pub struct ExecutionStore {
 }
 
 impl ExecutionStore {
-    /// Opens (and creates) the directory `executions` below `data`.
+    /// Opens (and creates) the directory `executions` below `data`. What a killed service was about to
+    /// remove goes.
     ///
     /// # Errors
     /// Those of the file system.
     pub fn open(data: &Path) -> io::Result<Self> {
         let directory = data.join("executions");
         fs::create_dir_all(&directory)?;
+        for entry in fs::read_dir(&directory)? {
+            let entry = entry?;
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if name.starts_with(SCRATCH) {
+                fs::remove_dir_all(entry.path())?;
+            }
+        }
         Ok(Self { directory })
     }
 
@@ -59,6 +75,42 @@ impl ExecutionStore {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
             }
+        }
+    }
+
+    /// Keeps what a run was asked for, while it waits: it is synced with the record.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn save_request(&self, id: &str, request: &CreateExecution) -> io::Result<()> {
+        let bytes = serde_json::to_vec(request).map_err(io::Error::other)?;
+        replace_unsynced(&self.request_path(id), &bytes)
+    }
+
+    /// Whether the request of a run is kept.
+    pub fn has_request(&self, id: &str) -> bool {
+        self.request_path(id).is_file()
+    }
+
+    /// The request of a run, if it is kept.
+    ///
+    /// # Errors
+    /// Those of the file system; a file that is no request.
+    pub fn request(&self, id: &str) -> io::Result<Option<CreateExecution>> {
+        match fs::read(self.request_path(id)) {
+            Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(io::Error::other),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Removes the request of a run that no longer waits; it may hold a whole mesh.
+    pub fn forget_request(&self, id: &str) {
+        match fs::remove_file(self.request_path(id)) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                tracing::warn!(%id, %error, "a run's request cannot be removed");
+            }
+            _ => {}
         }
     }
 
@@ -104,11 +156,20 @@ impl ExecutionStore {
         self.path(id).join("images")
     }
 
+    /// Its `transforms.json`, once the run has ended.
+    pub fn transforms(&self, id: &str) -> PathBuf {
+        self.path(id).join("transforms.json")
+    }
+
+    fn request_path(&self, id: &str) -> PathBuf {
+        self.path(id).join("request.json")
+    }
+
     /// A directory name that nobody else uses, for passing files.
     pub fn scratch(&self) -> PathBuf {
         static COUNTER: AtomicU64 = AtomicU64::new(0);
         let number = COUNTER.fetch_add(1, Ordering::Relaxed);
-        self.directory.join(format!(".scratch-{}-{number}", std::process::id()))
+        self.directory.join(format!("{SCRATCH}{}-{number}", std::process::id()))
     }
 
     fn ids(&self) -> io::Result<Vec<String>> {

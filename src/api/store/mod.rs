@@ -3,7 +3,7 @@
 //! ```text
 //! plans/<id>.json            the answer, byte for byte
 //! plans/<id>.request.json    the canonical request without its images
-//! executions/<id>/record.json, images/<view>.png, transforms.json
+//! executions/<id>/record.json, images/<view>.png, transforms.json, while it waits request.json
 //! ```
 //! Every file is whole or absent ([`crate::files`]). A plan that was answered and a run that is over are
 //! synced to the disk; a run under way is not, since a power cut ends it anyway.

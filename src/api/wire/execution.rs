@@ -69,7 +69,7 @@ pub enum BackgroundJson {
 #[serde(rename_all = "snake_case")]
 #[schema(as = ExecutionState)]
 pub enum ExecutionStateJson {
-    /// Waits for a free place.
+    /// Waits for a free arm, also beyond the end of the service.
     Queued,
     /// The arm moves.
     Running,
@@ -79,7 +79,7 @@ pub enum ExecutionStateJson {
     Cancelled,
     /// Stopped by an error.
     Failed,
-    /// The service ended during the run.
+    /// The service ended while the arm moved.
     Interrupted,
 }
 
@@ -102,7 +102,7 @@ pub struct ExecutionJson {
     pub images: Vec<u32>,
     /// What the caller should know.
     pub warnings: Vec<WarningJson>,
-    /// Why it failed.
+    /// Why it failed or was interrupted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
 }

@@ -17,7 +17,7 @@ mod write;
 
 pub use error::TransformsError;
 pub use read::{DEFAULT_TEST_EVERY, ImageSet, read_transforms};
-pub use write::{TransformsFrame, write_image_set, write_transforms};
+pub use write::{TransformsFrame, transforms_text, write_image_set, write_transforms};
 
 use crate::geometry::Point;
 

@@ -22,17 +22,12 @@ pub struct TransformsFrame {
     pub world_from_camera: Pose,
 }
 
-/// Writes `dir/transforms.json`, replacing it at once. Intrinsics stand at the top if
-/// all frames share them, else with each frame. instant-ngp takes `cube` as its
-/// bounding box; nerfstudio ignores it.
+/// The text of a `transforms.json`. Intrinsics stand at the top if all frames share them, else with each
+/// frame. instant-ngp takes `cube` as its bounding box; nerfstudio ignores it.
 ///
 /// # Errors
-/// [`TransformsError::Write`] if the file cannot be written.
-pub fn write_transforms(
-    dir: &Path,
-    frames: &[TransformsFrame],
-    cube: &SceneCube,
-) -> Result<(), TransformsError> {
+/// Those of serialising: a number that is not finite.
+pub fn transforms_text(frames: &[TransformsFrame], cube: &SceneCube) -> Result<String, serde_json::Error> {
     let shared = frames.first().filter(|first| frames.iter().all(|f| f.camera == first.camera));
     let scale = 0.5 / cube.half_extent_m;
     let content = Transforms {
@@ -49,11 +44,22 @@ pub fn write_transforms(
             })
             .collect(),
     };
+    serde_json::to_string_pretty(&content).map(|text| text + "\n")
+}
+
+/// Writes `dir/transforms.json` (see [`transforms_text`]), replacing it at once.
+///
+/// # Errors
+/// [`TransformsError::Write`] if the file cannot be written.
+pub fn write_transforms(
+    dir: &Path,
+    frames: &[TransformsFrame],
+    cube: &SceneCube,
+) -> Result<(), TransformsError> {
     let path = dir.join("transforms.json");
-    let json = serde_json::to_string_pretty(&content)
+    let text = transforms_text(frames, cube)
         .map_err(|source| TransformsError::Json { path: path.clone(), source })?;
-    replace_unsynced(&path, (json + "\n").as_bytes())
-        .map_err(|source| TransformsError::Write { path, source })
+    replace_unsynced(&path, text.as_bytes()).map_err(|source| TransformsError::Write { path, source })
 }
 
 /// Writes every image as `dir/images/0000.png` and so on, then `dir/transforms.json`.
