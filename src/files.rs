@@ -62,6 +62,18 @@ pub fn replace_unsynced(path: &Path, bytes: &[u8]) -> io::Result<()> {
     fs::rename(&beside.path, path)
 }
 
+/// Removes the file at `path`, safe from a power cut on return; false where there is none.
+///
+/// # Errors
+/// Those of the file system.
+pub fn remove(path: &Path) -> io::Result<bool> {
+    match fs::remove_file(path) {
+        Ok(()) => sync_directory(path).map(|()| true),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
+    }
+}
+
 /// Makes every file of `directory` safe from a power cut.
 ///
 /// # Errors

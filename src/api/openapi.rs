@@ -21,8 +21,8 @@ use super::routes::{
             with a stable code; 422 names field, value and bound.",
     ),
     paths(
-        plans::create, plans::list, plans::get, plans::request, checks::create, predictions::create, reachability::create, view_spaces::get, robots::list, robots::get,
-        executions::create, executions::list, executions::get, executions::cancel, events::stream, images::list,
+        plans::create, plans::list, plans::get, plans::delete, plans::request, checks::create, predictions::create, reachability::create, view_spaces::get, robots::list, robots::get,
+        executions::create, executions::list, executions::get, executions::delete, executions::cancel, events::stream, images::list,
         images::get, images::transforms, objects::list, health::live, health::ready,
     ),
     components(schemas(ProblemJson)),

@@ -27,7 +27,7 @@ use super::state::AppState;
 pub fn router(app: AppState) -> Router {
     let timed = Router::new()
         .route("/v1/plans", post(plans::create).get(plans::list))
-        .route("/v1/plans/{id}", get(plans::get))
+        .route("/v1/plans/{id}", get(plans::get).delete(plans::delete))
         .route("/v1/plans/{id}/request", get(plans::request))
         .route("/v1/checks", post(checks::create))
         .route("/v1/predictions", post(predictions::create))
@@ -37,7 +37,7 @@ pub fn router(app: AppState) -> Router {
         .route("/v1/robots/{model}", get(robots::get))
         .route("/v1/objects", get(objects::list))
         .route("/v1/executions", post(executions::create).get(executions::list))
-        .route("/v1/executions/{id}", get(executions::get))
+        .route("/v1/executions/{id}", get(executions::get).delete(executions::delete))
         .route("/v1/executions/{id}/cancel", post(executions::cancel))
         .route("/v1/executions/{id}/images", get(images::list))
         .route("/v1/executions/{id}/images/{view}", get(images::get))

@@ -6,6 +6,7 @@ mod cancel;
 mod capture;
 mod cell_bounds;
 mod checks;
+mod deletion;
 mod determinism;
 mod doubts;
 mod events;

@@ -64,6 +64,12 @@ impl Entry {
         self.lock().execution.state == ExecutionStateJson::Running
     }
 
+    /// Whether it waits for an arm to follow this plan.
+    pub(super) fn waits_for_plan(&self, plan_id: &str) -> bool {
+        let record = self.lock();
+        record.execution.state == ExecutionStateJson::Queued && record.execution.plan_id == plan_id
+    }
+
     /// Tells of changes; the value counts them.
     pub fn changes(&self) -> watch::Receiver<u64> {
         self.changes.subscribe()

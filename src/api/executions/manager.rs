@@ -92,6 +92,12 @@ impl Executions {
         self.entries.read().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect()
     }
 
+    /// Ids of the runs that wait for an arm to follow this plan, sorted.
+    pub fn waiting_for_plan(&self, plan_id: &str) -> Vec<String> {
+        let entries = self.entries.read().unwrap_or_else(PoisonError::into_inner);
+        entries.iter().filter(|(_, entry)| entry.waits_for_plan(plan_id)).map(|(id, _)| id.clone()).collect()
+    }
+
     /// The store.
     pub fn store(&self) -> &ExecutionStore {
         &self.store
@@ -131,6 +137,31 @@ impl Executions {
             self.store.forget_request(&execution.id);
         }
         Ok(())
+    }
+
+    /// Deletes a run that is over, and its files; false where there is none. Writes files: for threads that
+    /// may block.
+    ///
+    /// # Errors
+    /// 409 when it is not over; storage problems.
+    pub fn delete(&self, id: &str) -> Result<bool, Problem> {
+        let remains = {
+            let mut entries = self.entries.write().unwrap_or_else(PoisonError::into_inner);
+            let Some(entry) = entries.get(id) else { return Ok(false) };
+            if !entry.is_over() {
+                return Err(conflict(
+                    "execution_running",
+                    entry,
+                    "that of a run that is over; cancel it first",
+                ));
+            }
+            let remains = self.store.take_away(id)?;
+            entries.remove(id);
+            remains
+        };
+        // Many photos take a while: others need not wait for it.
+        std::fs::remove_dir_all(remains)?;
+        Ok(true)
     }
 
     /// Stops every run and waits until they have, at most `patience`. Those that wait for an arm stay

@@ -1,4 +1,4 @@
-//! `/v1/executions`: start, look, cancel.
+//! `/v1/executions`: start, look, cancel, delete.
 
 use axum::Json;
 use axum::extract::{FromRequest, Request, State};
@@ -7,7 +7,7 @@ use axum::response::{IntoResponse, Response};
 
 use super::off_thread;
 use super::refusals::{BodyRefusals, RunRefusals};
-use super::run::{FoundRun, RunId};
+use super::run::{FoundRun, RunId, unknown};
 use crate::api::extract::JsonBody;
 use crate::api::problem::{Problem, ProblemJson};
 use crate::api::state::AppState;
@@ -72,4 +72,22 @@ pub async fn cancel(
     let cancel = move || app.executions.cancel(&run.entry).map(|()| run.entry.execution());
     let execution = off_thread(cancel).await?;
     Ok((StatusCode::ACCEPTED, Json(execution)))
+}
+
+/// Delete a run that is over, with its photos.
+#[utoipa::path(
+    delete, path = "/v1/executions/{id}", tag = "executions", params(RunId),
+    responses(
+        (status = 204, description = "Gone"),
+        RunRefusals,
+        (status = 409, description = "It is not over: cancel it first", body = ProblemJson, content_type = "application/problem+json"),
+    )
+)]
+pub async fn delete(State(app): State<AppState>, run: FoundRun) -> Result<StatusCode, Problem> {
+    let FoundRun { id, .. } = run;
+    let work = move || match app.executions.delete(&id)? {
+        true => Ok(StatusCode::NO_CONTENT),
+        false => Err(unknown(&id)),
+    };
+    off_thread(work).await
 }

@@ -73,7 +73,7 @@ pub async fn get(State(app): State<AppState>, PathParam(id): PathParam<String>) 
     let (plans, wanted) = (app.plans, id.clone());
     match off_thread(move || Ok(plans.answer(&wanted)?)).await? {
         Some(bytes) => Ok(json_bytes(bytes)),
-        None => Err(Problem::not_found("unknown_plan", "id", &id, "the id of a stored plan")),
+        None => Err(unknown(&id)),
     }
 }
 
@@ -92,6 +92,36 @@ pub async fn request(
     let (plans, wanted) = (app.plans, id.clone());
     match off_thread(move || Ok(plans.request(&wanted)?)).await? {
         Some(bytes) => Ok(json_bytes(bytes)),
-        None => Err(Problem::not_found("unknown_plan", "id", &id, "the id of a stored plan")),
+        None => Err(unknown(&id)),
     }
+}
+
+/// Delete a stored plan.
+///
+/// Runs that have followed it keep their photos and poses; one that still waits for an arm needs the plan.
+#[utoipa::path(
+    delete, path = "/v1/plans/{id}", tag = "plans", params(("id" = String, Path, description = "The plan's id")),
+    responses(
+        (status = 204, description = "Gone"),
+        (status = 404, description = "No such plan", body = ProblemJson, content_type = "application/problem+json"),
+        (status = 409, description = "Runs wait for an arm to follow it; bound names them", body = ProblemJson, content_type = "application/problem+json"),
+    )
+)]
+pub async fn delete(
+    State(app): State<AppState>,
+    PathParam(id): PathParam<String>,
+) -> Result<StatusCode, Problem> {
+    let work = move || {
+        let waiting = app.executions.waiting_for_plan(&id);
+        if !waiting.is_empty() {
+            let bound = format!("a plan that no run waits for: cancel {} first", waiting.join(", "));
+            return Err(Problem::field("plan_in_use", "id", id, bound).with_status(StatusCode::CONFLICT));
+        }
+        if app.plans.delete(&id)? { Ok(StatusCode::NO_CONTENT) } else { Err(unknown(&id)) }
+    };
+    off_thread(work).await
+}
+
+fn unknown(id: &str) -> Problem {
+    Problem::not_found("unknown_plan", "id", id, "the id of a stored plan")
 }

@@ -35,7 +35,12 @@ impl FromRequestParts<AppState> for FoundRun {
         let PathParam(RunId { id }) = PathParam::from_request_parts(parts, app).await?;
         match app.executions.get(&id) {
             Some(entry) => Ok(Self { id, entry }),
-            None => Err(Problem::not_found("unknown_execution", "id", &id, "the id of a run")),
+            None => Err(unknown(&id)),
         }
     }
+}
+
+/// 404: there is no such run.
+pub fn unknown(id: &str) -> Problem {
+    Problem::not_found("unknown_execution", "id", id, "the id of a run")
 }

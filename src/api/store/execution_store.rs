@@ -1,6 +1,6 @@
 //! Stored executions.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,6 +15,10 @@ use crate::files::{replace, replace_unsynced, sync_files};
 
 /// Begins the names of directories for passing files.
 const SCRATCH: &str = ".scratch-";
+/// Begins the names of deleted runs whose files are still being removed.
+const DELETED: &str = ".deleted-";
+/// The file with the number of the last run, written when runs are deleted.
+const LAST: &str = ".last";
 
 /// All that is known about a run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -50,20 +54,19 @@ impl ExecutionStore {
         for entry in fs::read_dir(&directory)? {
             let entry = entry?;
             let name = entry.file_name().to_string_lossy().into_owned();
-            if name.starts_with(SCRATCH) {
+            if name.starts_with(SCRATCH) || name.starts_with(DELETED) {
                 fs::remove_dir_all(entry.path())?;
             }
         }
         Ok(Self { directory })
     }
 
-    /// Takes a new id: runs are numbered.
+    /// Takes a new id: runs are numbered, and a number is never used again.
     ///
     /// # Errors
     /// Those of the file system.
     pub fn create(&self) -> io::Result<String> {
-        let mut number =
-            self.ids()?.last().and_then(|id| id.strip_prefix("run-")?.parse::<u64>().ok()).unwrap_or(0);
+        let mut number = self.last_number()?;
         loop {
             number += 1;
             let id = format!("run-{number:06}");
@@ -76,6 +79,18 @@ impl ExecutionStore {
                 Err(error) => return Err(error),
             }
         }
+    }
+
+    /// Moves a run's files out of the way, at once; whoever calls removes the directory that is returned.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn take_away(&self, id: &str) -> io::Result<PathBuf> {
+        replace(&self.directory.join(LAST), self.last_number()?.to_string().as_bytes())?;
+        let remains = self.directory.join(format!("{DELETED}{id}"));
+        fs::rename(self.path(id), &remains)?;
+        File::open(&self.directory)?.sync_all()?;
+        Ok(remains)
     }
 
     /// Keeps what a run was asked for, while it waits: it is synced with the record.
@@ -170,6 +185,18 @@ impl ExecutionStore {
         static COUNTER: AtomicU64 = AtomicU64::new(0);
         let number = COUNTER.fetch_add(1, Ordering::Relaxed);
         self.directory.join(format!("{SCRATCH}{}-{number}", std::process::id()))
+    }
+
+    /// The number of the last run, deleted ones included.
+    fn last_number(&self) -> io::Result<u64> {
+        let kept = match fs::read_to_string(self.directory.join(LAST)) {
+            Ok(text) => text.trim().parse().unwrap_or(0),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => 0,
+            Err(error) => return Err(error),
+        };
+        let ids = self.ids()?;
+        let numbers = ids.iter().filter_map(|id| id.strip_prefix("run-")?.parse::<u64>().ok());
+        Ok(numbers.fold(kept, u64::max))
     }
 
     fn ids(&self) -> io::Result<Vec<String>> {

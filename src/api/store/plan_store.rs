@@ -3,14 +3,17 @@
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, PoisonError, RwLock};
 
 use super::is_id;
-use crate::files::{create_once, replace};
+use crate::files::{create_once, remove, replace};
 
 /// Plans as files.
 #[derive(Clone, Debug)]
 pub struct PlanStore {
     directory: PathBuf,
+    /// Keeps a plan's two files together: deleting one must not meet storing it again.
+    deleting: Arc<RwLock<()>>,
 }
 
 impl PlanStore {
@@ -21,7 +24,7 @@ impl PlanStore {
     pub fn open(data: &Path) -> io::Result<Self> {
         let directory = data.join("plans");
         fs::create_dir_all(&directory)?;
-        Ok(Self { directory })
+        Ok(Self { directory, deleting: Arc::default() })
     }
 
     /// Stores an answer and its request unless the id is known; returns the stored answer and
@@ -30,9 +33,24 @@ impl PlanStore {
     /// # Errors
     /// Those of the file system.
     pub fn put(&self, id: &str, answer: Vec<u8>, request: &[u8]) -> io::Result<(Vec<u8>, bool)> {
+        let _kept = self.deleting.read().unwrap_or_else(PoisonError::into_inner);
         // The request first: a plan that can be read can be executed.
         replace(&self.directory.join(format!("{id}.request.json")), request)?;
         create_once(&self.directory.join(format!("{id}.json")), answer)
+    }
+
+    /// Deletes a plan; false where there is none.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn delete(&self, id: &str) -> io::Result<bool> {
+        if !is_id(id) {
+            return Ok(false);
+        }
+        let _alone = self.deleting.write().unwrap_or_else(PoisonError::into_inner);
+        let found = remove(&self.directory.join(format!("{id}.json")))?;
+        remove(&self.directory.join(format!("{id}.request.json")))?;
+        Ok(found)
     }
 
     /// The answer with this id.
