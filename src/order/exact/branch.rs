@@ -56,7 +56,7 @@ pub(super) fn search(
         let mut idle = 0;
         loop {
             let spent = node.relaxation.work;
-            let outcome = node.relaxation.solve(upper - tolerance + shift, PIVOTS);
+            let outcome = node.relaxation.solve(upper - tolerance + shift, PIVOTS, *work);
             let bound = node.relaxation.safe_bound() - shift;
             *work = work.saturating_sub(node.relaxation.work - spent + (problem.nodes * edges.len()) as u64);
             if outcome == Outcome::Infeasible || bound >= upper - tolerance {
@@ -96,7 +96,7 @@ pub(super) fn search(
                 }
                 break;
             }
-            let (column, spent) = branching_edge(&node.relaxation, upper - tolerance + shift);
+            let (column, spent) = branching_edge(&node.relaxation, upper - tolerance + shift, *work);
             *work = work.saturating_sub(spent);
             let Some(column) = column else { break };
             let mut without = Node { relaxation: node.relaxation.clone(), bound: node.bound };
@@ -133,7 +133,7 @@ fn root(problem: &TourProblem, edges: &[Edge], prices: &[f64]) -> Node {
 
 /// The fractional edge whose two branches raise the bound most (short trial solves), and the work
 /// that took. None if a trial showed that nothing is left here.
-fn branching_edge(relaxation: &LinearProgram, cutoff: f64) -> (Option<usize>, u64) {
+fn branching_edge(relaxation: &LinearProgram, cutoff: f64, most: u64) -> (Option<usize>, u64) {
     let mut fractional: Vec<(f64, usize)> = relaxation
         .values()
         .iter()
@@ -149,7 +149,7 @@ fn branching_edge(relaxation: &LinearProgram, cutoff: f64) -> (Option<usize>, u6
         for (gain, value) in gains.iter_mut().zip([0.0, 1.0]) {
             let mut trial = relaxation.clone();
             trial.fix(column, value);
-            let outcome = trial.solve(cutoff, TRIAL_PIVOTS);
+            let outcome = trial.solve(cutoff, TRIAL_PIVOTS, most);
             *gain = if outcome == Outcome::Infeasible { cutoff } else { trial.safe_bound().min(cutoff) };
             work += trial.work - relaxation.work;
         }

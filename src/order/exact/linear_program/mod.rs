@@ -32,7 +32,7 @@ pub(super) enum Outcome {
     Infeasible,
     /// The objective passed the cutoff: the optimum is at least that.
     Cutoff,
-    /// Out of pivots.
+    /// Out of pivots or work.
     Unfinished,
 }
 
@@ -178,9 +178,13 @@ impl LinearProgram {
         }
     }
 
-    /// Runs the dual simplex for at most `pivots` pivots.
-    pub(super) fn solve(&mut self, cutoff: f64, pivots: usize) -> Outcome {
+    /// Runs the dual simplex for at most `pivots` pivots and about `work` multiplications.
+    pub(super) fn solve(&mut self, cutoff: f64, pivots: usize, work: u64) -> Outcome {
+        let most = self.work.saturating_add(work);
         for _ in 0..pivots {
+            if self.work > most {
+                break;
+            }
             if self.since_refresh >= REFRESH {
                 self.refactor();
             }

@@ -56,7 +56,8 @@ impl LinearProgram {
                 candidates.push(((self.reduced[variable] / signed).max(0.0), variable, entry));
             }
         }
-        self.work += (row.len() * 4 + self.rows()) as u64;
+        // Every column is looked at, and each of those in the row several times.
+        self.work += (self.place.len() * 4 + row.len() * 4 + self.rows()) as u64;
         candidates.sort_unstable_by(|a, b| {
             a.0.total_cmp(&b.0).then(b.2.abs().total_cmp(&a.2.abs())).then(a.1.cmp(&b.1))
         });
