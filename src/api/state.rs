@@ -31,8 +31,12 @@ impl AppState {
     /// Opens the stores and loads the model, within the runtime; says what is missing.
     ///
     /// # Errors
-    /// A data directory that cannot be used, or that another service uses.
+    /// A data directory that cannot be used, or that another service uses; an objects directory that is none.
     pub fn open(config: ServiceConfig) -> io::Result<Self> {
+        if let Some(directory) = config.objects_dir.as_ref().filter(|path| !path.is_dir()) {
+            let text = format!("the objects directory {} is no directory", directory.display());
+            return Err(io::Error::new(io::ErrorKind::NotADirectory, text));
+        }
         let data_lock = data_lock::lock(&config.data_dir)?;
         let plans = PlanStore::open(&config.data_dir)?;
         let sources = Sources { plans: plans.clone(), objects_dir: config.objects_dir.clone() };

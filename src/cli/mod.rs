@@ -26,7 +26,8 @@ mod workers;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::builder::BoolishValueParser;
+use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 /// View planning for robots that reconstruct objects they have never seen.
 #[derive(Parser)]
@@ -86,7 +87,9 @@ pub fn run() -> ExitCode {
     leave_quietly_when_nobody_reads();
     // Without a subcommand the program serves, so that `cargo run --release` does.
     let words: Vec<_> = std::env::args_os().collect();
-    let cli = if words.len() == 1 { Cli::parse_from(["prv", "serve"]) } else { Cli::parse_from(words) };
+    let words = if words.len() == 1 { vec!["prv".into(), "serve".into()] } else { words };
+    let cli = Cli::from_arg_matches(&with_plain_booleans(Cli::command()).get_matches_from(words));
+    let cli = cli.unwrap_or_else(|error| error.exit());
     let result: CliResult = match cli.command {
         Command::Capture(args) => capture::run(&args),
         Command::Check(args) => return check::run(&args),
@@ -121,6 +124,15 @@ pub fn run() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Lets the environment turn flags on and off as people write it: 1, yes and on as well as true.
+fn with_plain_booleans(command: clap::Command) -> clap::Command {
+    let plain = |flag: Arg| match flag.get_action() {
+        ArgAction::SetTrue => flag.value_parser(BoolishValueParser::new()),
+        _ => flag,
+    };
+    command.mut_args(plain).mut_subcommands(with_plain_booleans)
 }
 
 /// `prv robots | head -1`: whoever reads has enough. `println!` knows no other way to say so than a panic.

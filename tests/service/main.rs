@@ -11,6 +11,7 @@ mod determinism;
 mod doubts;
 mod events;
 mod execution_refusals;
+mod flags;
 mod garbage;
 mod harness;
 mod objective;
