@@ -6,7 +6,7 @@ use std::time::Duration;
 use axum::Router;
 use axum::extract::{Request, State};
 use axum::http::{Method, StatusCode, Uri};
-use axum::middleware::{Next, from_fn_with_state};
+use axum::middleware::{Next, from_fn, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use tower::ServiceBuilder;
@@ -15,6 +15,7 @@ use tower_http::request_id::{MakeRequestUuid, PropagateRequestIdLayer, RequestId
 use tower_http::trace::TraceLayer;
 use utoipa_swagger_ui::{Config, SwaggerUi};
 
+use super::extract::refuse_query;
 use super::openapi::openapi_json;
 use super::problem::Problem;
 use super::routes::{
@@ -25,14 +26,12 @@ use super::state::AppState;
 
 /// The service's router.
 pub fn router(app: AppState) -> Router {
-    let timed = Router::new()
+    let plain = Router::new()
         .route("/v1/plans", post(plans::create).get(plans::list))
         .route("/v1/plans/{id}", get(plans::get).delete(plans::delete))
         .route("/v1/plans/{id}/request", get(plans::request))
         .route("/v1/checks", post(checks::create))
         .route("/v1/predictions", post(predictions::create))
-        .route("/v1/reachability", post(reachability::create))
-        .route("/v1/view-spaces/{n}", get(view_spaces::get))
         .route("/v1/robots", get(robots::list))
         .route("/v1/robots/{model}", get(robots::get))
         .route("/v1/objects", get(objects::list))
@@ -45,9 +44,16 @@ pub fn router(app: AppState) -> Router {
         .route("/livez", get(health::live))
         .route("/readyz", get(health::ready))
         .route("/openapi.json", get(|| async { json_bytes(openapi_json()) }))
-        .layer(from_fn_with_state(app.config.request_timeout, time_limit));
+        .route_layer(from_fn(refuse_query));
+    // These check their query parameters themselves.
+    let with_query = Router::new()
+        .route("/v1/reachability", post(reachability::create))
+        .route("/v1/view-spaces/{n}", get(view_spaces::get));
+    let timed = plain.merge(with_query).layer(from_fn_with_state(app.config.request_timeout, time_limit));
     // A stream of events lasts as long as its run.
-    let streams = Router::new().route("/v1/executions/{id}/events", get(events::stream));
+    let streams = Router::new()
+        .route("/v1/executions/{id}/events", get(events::stream))
+        .route_layer(from_fn(refuse_query));
     let docs: Router<AppState> = SwaggerUi::new("/docs").config(Config::from("/openapi.json")).into();
     let around = ServiceBuilder::new()
         .layer(SetRequestIdLayer::x_request_id(MakeRequestUuid))

@@ -1,8 +1,8 @@
 //! Bounds of a request's numbers, and the usual mistakes behind values outside them.
 
 use super::{
-    Arm, ObjectSphere, PlanError, PlanRequest, ViewSource, Warning, hand_eye, photos, surroundings,
-    work_bound,
+    Arm, ObjectSphere, PlanError, PlanRequest, UnreachableViews, ViewSource, Warning, hand_eye, photos,
+    surroundings, work_bound,
 };
 use crate::views::{Band, MAX_VIEWS};
 
@@ -48,6 +48,13 @@ pub fn check(request: &PlanRequest) -> Result<Vec<Warning>, PlanError> {
         warnings.push(Warning::new(
             "unused_band",
             "the initial views have elevations of their own: those of view_space are not used",
+        ));
+    }
+    let skips = request.arm.as_ref().is_some_and(|arm| arm.unreachable_views == UnreachableViews::Skip);
+    if matches!(request.source, ViewSource::Initial { .. }) && skips {
+        warnings.push(Warning::new(
+            "unused_unreachable_views",
+            "the initial views are never replaced: unreachable_views is not used",
         ));
     }
     warnings.extend(photos::check(request)?);

@@ -53,6 +53,22 @@ async fn requests_that_mean_the_same_have_one_id() {
         let again: Value = again.json().await.unwrap();
         assert_eq!(again, plan, "{more}");
     }
+    // Limits that are the robot's own; another's are another request.
+    let ur5e = server.get_json("/v1/robots/ur5e").await;
+    let joints = ur5e["joint_names"].as_array().unwrap().iter().zip(ur5e["limits"].as_array().unwrap());
+    let own: serde_json::Map<String, Value> = joints
+        .map(|(name, limits)| {
+            let known = ["min", "max", "max_speed", "max_acceleration"];
+            let members = known.iter().map(|member| ((*member).to_owned(), limits[*member].clone()));
+            (name.as_str().unwrap().to_owned(), Value::Object(members.collect()))
+        })
+        .collect();
+    assert_eq!(own.len(), 6);
+    assert!(own["elbow_joint"]["max_speed"].is_number(), "{own:?}");
+    let same = server.post_json("/v1/plans", &with(robot.clone(), json!({"limits": own}))).await;
+    assert_eq!(same, plan);
+    let slower = json!({"limits": {"elbow_joint": {"max_speed": 1.0}}});
+    assert_ne!(server.post_json("/v1/plans", &with(robot.clone(), slower)).await["id"], plan["id"]);
     // The two quaternions of one turn, and two words for one freedom.
     let (mount, turned) = ([0.0, 0.0, 0.6, 0.8], [-0.0, 0.0, -0.6, -0.8]);
     let mounted = |orientation: [f64; 4], roll: Value| {

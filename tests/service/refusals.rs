@@ -242,6 +242,28 @@ async fn documents_that_are_no_request_are_problems_too() {
 }
 
 #[tokio::test]
+async fn a_body_that_is_packed_or_in_another_charset_is_refused_by_its_header() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    for (name, value, field, bound) in [
+        ("content-encoding", "gzip", "Content-Encoding", "not unpacked"),
+        ("content-type", "application/json; charset=iso-8859-1", "Content-Type", "UTF-8"),
+        ("content-type", "text/plain", "Content-Type", "application/json"),
+    ] {
+        let request = server.client.post(format!("{}/v1/plans", server.url)).body(r#"{"view_count": 3}"#);
+        let typed =
+            if name == "content-type" { request } else { request.header("content-type", "application/json") };
+        let refused = problem(typed.header(name, value).send().await.unwrap()).await;
+        assert_eq!((&refused["status"], &refused["field"]), (&json!(415), &json!(field)), "{refused}");
+        assert_eq!(refused["value"], value);
+        assert!(refused["bound"].as_str().unwrap().contains(bound), "{refused}");
+    }
+    let request = server.client.post(format!("{}/v1/plans", server.url)).body(r#"{"view_count": 3}"#);
+    let typed = request.header("content-type", "application/json; charset=UTF-8");
+    assert_eq!(typed.header("content-encoding", "identity").send().await.unwrap().status(), 201);
+}
+
+#[tokio::test]
 async fn a_body_over_32_mib_is_refused_with_the_bound() {
     let data = tempfile::tempdir().unwrap();
     let server = Server::start(data.path());
@@ -252,6 +274,7 @@ async fn a_body_over_32_mib_is_refused_with_the_bound() {
     assert_eq!(refused["code"], "body_too_large");
     assert_eq!(refused["value"], length);
     assert!(refused["bound"].as_str().unwrap().contains("33554432 bytes"));
+    assert!(refused["detail"].as_str().unwrap().contains("at most 33554432 bytes"));
     // The service is none the worse for it.
     assert_eq!(server.get_json("/livez").await["status"], "ok");
 }

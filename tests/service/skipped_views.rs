@@ -53,3 +53,20 @@ async fn a_view_under_the_table_is_skipped_with_its_depth() {
         assert!((depth + view["pose"]["position"][2].as_f64().unwrap()).abs() < 1e-9);
     }
 }
+
+#[tokio::test]
+async fn what_becomes_of_unreachable_views_is_said_to_be_unused_with_initial_ones() {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let codes = |more: Value| {
+        let (server, body) = (&server, with(with(cell(), json!({"views": "initial"})), more));
+        async move {
+            let plan = server.post_json("/v1/plans", &body).await;
+            let warnings = plan["warnings"].as_array().unwrap().clone();
+            warnings.iter().filter(|warning| warning["code"] == "unused_unreachable_views").count()
+        }
+    };
+    assert_eq!(codes(json!({"unreachable_views": "skip"})).await, 1);
+    assert_eq!(codes(json!({"unreachable_views": "replace"})).await, 0, "it is the default");
+    assert_eq!(codes(json!({})).await, 0);
+}

@@ -3,7 +3,8 @@
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::base64_bytes;
+use super::limits::drop_own;
+use super::{base64_bytes, robot};
 use crate::api::wire::{JointLimitsJson, PlanRequestJson, RollJson, TimingJson};
 use crate::motion::{Cell, Roll};
 use crate::robot::RobotModel;
@@ -12,13 +13,16 @@ use crate::robot::RobotModel;
 /// taken for a quaternion.
 const NORM: (f64, f64) = (1e-12, 1e-3);
 
-/// `request` with what goes without saying left out: defaults, empty limits, the sign of quaternions
-/// and of zero, the case of a robot's name. It means the same, and is its own canonical form. What is
+/// `request` with what goes without saying left out: defaults, limits that are the robot's own, the sign
+/// of quaternions and of zero, the case of a robot's name. It means the same, and is its own canonical form. What is
 /// wrong with it stays wrong.
 pub fn canonical(mut request: PlanRequestJson) -> PlanRequestJson {
     request.timing = request.timing.filter(|timing| *timing != TimingJson::default());
     request.margin = request.margin.filter(|margin| *margin != Cell::DEFAULT_MARGIN_M);
     if let Some(limits) = &mut request.limits {
+        if let Some(model) = request.robot.as_ref().and_then(|description| robot(description).ok()) {
+            drop_own(limits, &model);
+        }
         limits.retain(|_, limits| *limits != JointLimitsJson::default());
     }
     request.limits = request.limits.filter(|limits| !limits.is_empty());

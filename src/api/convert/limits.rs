@@ -25,3 +25,21 @@ pub fn limited_robot(json: &RobotJson, limits: Option<&LimitsJson>) -> Result<Ro
     });
     Ok(model.with_limits(limits)?)
 }
+
+/// Leaves out of `limits` what the robot has anyway.
+pub fn drop_own(limits: &mut LimitsJson, model: &RobotModel) {
+    for joint in &model.joints {
+        let Some(json) = limits.get_mut(&joint.name) else { continue };
+        for (given, own) in [
+            (&mut json.min, Some(joint.lower_rad)),
+            (&mut json.max, Some(joint.upper_rad)),
+            (&mut json.max_speed, Some(joint.max_speed_rad_per_s)),
+            (&mut json.max_acceleration, Some(joint.max_acceleration_rad_per_s2)),
+            (&mut json.max_jerk, joint.max_jerk_rad_per_s3),
+        ] {
+            if *given == own {
+                *given = None;
+            }
+        }
+    }
+}

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Request};
-use axum::http::StatusCode;
+use axum::http::{StatusCode, header};
 use tokio_stream::StreamExt;
 
 use crate::api::problem::Problem;
@@ -24,6 +24,10 @@ impl<S: Send + Sync> FromRequest<S> for BodyBytes {
     type Rejection = Problem;
 
     async fn from_request(request: Request, _state: &S) -> Result<Self, Problem> {
+        let told = request
+            .headers()
+            .get(header::CONTENT_LENGTH)
+            .and_then(|length| length.to_str().ok()?.parse().ok());
         let mut stream = request.into_body().into_data_stream();
         let mut bytes = Vec::new();
         while let Some(chunk) = stream.next().await {
@@ -37,7 +41,8 @@ impl<S: Send + Sync> FromRequest<S> for BodyBytes {
             if bytes.len() + chunk.len() > MAX_BODY_BYTES {
                 let seen = bytes.len() + chunk.len();
                 drop(bytes);
-                return Err(too_large(seen + drain(stream).await));
+                // The rest of a body may be too much to be counted.
+                return Err(too_large(told.unwrap_or(0).max(seen + drain(stream).await)));
             }
             bytes.extend_from_slice(&chunk);
         }
@@ -61,6 +66,10 @@ async fn drain(mut stream: axum::body::BodyDataStream) -> usize {
 }
 
 fn too_large(seen: usize) -> Problem {
-    Problem::field("body_too_large", "body", seen, format!("at most {MAX_BODY_BYTES} bytes"))
-        .with_status(StatusCode::PAYLOAD_TOO_LARGE)
+    let text = format!("the body has {seen} bytes, must have at most {MAX_BODY_BYTES} bytes");
+    Problem::new(StatusCode::PAYLOAD_TOO_LARGE, "body_too_large", text).at(
+        "body",
+        seen,
+        format!("at most {MAX_BODY_BYTES} bytes"),
+    )
 }

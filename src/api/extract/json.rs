@@ -1,14 +1,33 @@
 //! JSON bodies, with errors that name the member, the value and what was expected.
 
 use axum::extract::{FromRequest, Request};
-use axum::http::{StatusCode, header};
+use axum::http::StatusCode;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use serde_json::error::Category;
 
 use super::BodyBytes;
+use super::media::check_is_plain_json;
 use super::member::wrong_member;
+use super::twice::given_twice;
 use crate::api::problem::Problem;
+
+/// A byte order mark: what some editors write in front of a text.
+struct Mark {
+    bytes: &'static [u8],
+    name: &'static str,
+    bound: &'static str,
+}
+
+const MARKS: [Mark; 3] = [
+    Mark {
+        bytes: b"\xef\xbb\xbf",
+        name: "a UTF-8 byte order mark (EF BB BF)",
+        bound: "JSON without a byte order mark in front",
+    },
+    Mark { bytes: b"\xff\xfe", name: "a UTF-16 byte order mark (FF FE)", bound: "JSON in UTF-8" },
+    Mark { bytes: b"\xfe\xff", name: "a UTF-16 byte order mark (FE FF)", bound: "JSON in UTF-8" },
+];
 
 /// A body of type `application/json` that parses as `T`.
 pub struct JsonBody<T>(pub T);
@@ -17,19 +36,10 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for JsonBody<T> {
     type Rejection = Problem;
 
     async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
-        let content_type = request.headers().get(header::CONTENT_TYPE).cloned();
-        let given = content_type.as_ref().map(|v| String::from_utf8_lossy(v.as_bytes()).into_owned());
-        let is_json = given.as_deref().is_some_and(|text| {
-            let essence = text.split(';').next().unwrap_or("").trim().to_ascii_lowercase();
-            essence == "application/json"
-                || (essence.starts_with("application/") && essence.ends_with("+json"))
-        });
+        let readable = check_is_plain_json(request.headers());
         // The body is read before any refusal so that the client gets to see the answer.
         let BodyBytes(bytes) = BodyBytes::from_request(request, state).await?;
-        if !is_json {
-            return Err(Problem::field("unsupported_media_type", "Content-Type", given, "application/json")
-                .with_status(StatusCode::UNSUPPORTED_MEDIA_TYPE));
-        }
+        readable?;
         parse_json(&bytes).map(Self)
     }
 }
@@ -38,12 +48,15 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for JsonBody<T> {
 ///
 /// # Errors
 /// A [`Problem`]: 400 `malformed_json` when it is no JSON (`NaN`, numbers beyond f64), 422
-/// `invalid_member` when a member is missing, unknown or of the wrong type.
+/// `invalid_member` when a member is missing, unknown, given twice or of the wrong type.
 pub fn parse_json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Problem> {
     // A list of values would be read as a request's members in order.
     if bytes.trim_ascii_start().first() == Some(&b'[') {
         let body = serde_json::from_slice::<Value>(bytes).unwrap_or(Value::Null);
         return Err(Problem::field("invalid_member", "body", body, "an object"));
+    }
+    if let Some(path) = given_twice(bytes) {
+        return Err(Problem::field("invalid_member", path, "given more than once", "given once"));
     }
     let mut reader = serde_json::Deserializer::from_slice(bytes);
     let parsed: T = serde_path_to_error::deserialize(&mut reader)
@@ -62,6 +75,11 @@ fn explain<T: DeserializeOwned>(bytes: &[u8], path: String, error: &serde_json::
 }
 
 fn malformed(bytes: &[u8], path: String, error: &serde_json::Error) -> Problem {
+    // What stands before the first line of JSON is no JSON, and cannot be seen.
+    if let Some(mark) = MARKS.iter().find(|mark| bytes.starts_with(mark.bytes)) {
+        let text = format!("{path}: no JSON at line 1, column 1: {}", mark.name);
+        return Problem::new(StatusCode::BAD_REQUEST, "malformed_json", text).at(path, mark.name, mark.bound);
+    }
     let message = error.to_string();
     let reason = message.rsplit_once(" at line ").map_or(message.as_str(), |(head, _)| head);
     let bound = match error.classify() {
@@ -70,6 +88,7 @@ fn malformed(bytes: &[u8], path: String, error: &serde_json::Error) -> Problem {
         _ if reason.starts_with("trailing characters") => "one JSON document with nothing behind it",
         _ if reason.starts_with("trailing comma") => "JSON without a comma before a closing bracket",
         _ if reason.starts_with("key must be") => "JSON with the names of members in double quotes",
+        _ if reason.starts_with("invalid unicode code point") => "JSON in UTF-8",
         _ => "valid JSON (which knows no NaN or Infinity)",
     };
     let (line, column) = (error.line(), error.column());
@@ -136,6 +155,21 @@ mod tests {
         assert!(unknown.bound.as_deref().unwrap().contains("`object`"));
         let missing = refusal(r#"{"object": {"center": [0, 0, 0]}}"#);
         assert_eq!(missing.field.as_deref(), Some("object.radius"));
+    }
+
+    #[test]
+    fn what_an_editor_wrote_in_front_is_named() {
+        let refused = |bytes: &[u8]| parse_json::<PlanRequestJson>(bytes).unwrap_err();
+        let marked = refused(b"\xef\xbb\xbf{\"view_count\": 5}");
+        assert_eq!((marked.status, marked.code.as_str()), (400, "malformed_json"));
+        assert_eq!(marked.bound.as_deref(), Some("JSON without a byte order mark in front"));
+        assert!(
+            marked.detail.contains("byte order mark") && !marked.detail.contains("NaN"),
+            "{}",
+            marked.detail
+        );
+        assert_eq!(refused(b"\xff\xfe{\0}\0").bound.as_deref(), Some("JSON in UTF-8"));
+        assert_eq!(refused(b"{\"views\": \"\xe9\"}").bound.as_deref(), Some("JSON in UTF-8"));
     }
 
     #[test]

@@ -14,9 +14,6 @@ pub fn wrong_member<T: DeserializeOwned>(document: &Value) -> Option<Problem> {
     if message.starts_with("missing field") {
         return Some(Problem::field("invalid_member", field(quoted), Value::Null, "given"));
     }
-    if message.starts_with("duplicate field") {
-        return Some(Problem::field("invalid_member", field(quoted), value, "given once"));
-    }
     if message.starts_with("unknown field") {
         // The path of an unknown member ends with the member itself.
         let bound = match names(&message) {

@@ -2,9 +2,11 @@
 
 mod body;
 mod json;
+mod media;
 mod member;
 mod parameters;
+mod twice;
 
 pub use body::{BodyBytes, MAX_BODY_BYTES};
 pub use json::{JsonBody, parse_json};
-pub use parameters::{PathParam, QueryParams};
+pub use parameters::{PathParam, QueryParams, refuse_query};

@@ -2,8 +2,10 @@
 
 use axum::extract::path::ErrorKind;
 use axum::extract::rejection::PathRejection;
-use axum::extract::{FromRequestParts, MatchedPath, Path, Query};
+use axum::extract::{FromRequestParts, MatchedPath, Path, Query, Request};
 use axum::http::request::Parts;
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -70,4 +72,13 @@ impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for QueryPa
             Problem::field("invalid_query", field, value, bound)
         })
     }
+}
+
+/// In front of routes without query parameters: what would be ignored is refused.
+pub async fn refuse_query(request: Request, next: Next) -> Response {
+    let first = request.uri().query().and_then(|query| query.split('&').find(|pair| !pair.is_empty()));
+    let Some(pair) = first else { return next.run(request).await };
+    let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
+    Problem::field("invalid_query", name, value, "left out: there are no query parameters here")
+        .into_response()
 }
