@@ -19,7 +19,8 @@ use super::CliResult;
 pub struct Args {
     /// The problem, JSON; - reads it from standard input.
     file: PathBuf,
-    /// Seconds to spend; counted in work done, so that the answer does not depend on the machine.
+    /// Seconds to spend; counted in work done, so that the answer does not depend on the machine. A busy one, or
+    /// many hundreds of points, which no cache holds, may take two or three times as long.
     #[arg(long, env = "PRV_ORDER_BUDGET", default_value_t = 10.0)]
     budget: f64,
     /// Also print the path as points at most this far apart, metres ("curve").

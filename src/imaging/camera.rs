@@ -97,6 +97,13 @@ impl Distortion {
 }
 
 impl Camera {
+    /// Least and most pixels of an image's side.
+    pub const SIDE_PX: (u32, u32) = (1, 16_384);
+    /// Focal lengths and the principal point's coordinates are less than this, pixels.
+    pub const FARTHEST_PX: f64 = 1e6;
+    /// Distortion coefficients are less than this in size.
+    pub const LARGEST_DISTORTION: f64 = 100.0;
+
     /// The colour camera of an Intel RealSense D435 as the paper's authors used it
     /// (1280x720; facts of the authors' system).
     pub const REALSENSE_D435: Camera = Camera {
@@ -132,23 +139,23 @@ impl Camera {
     pub fn check(&self) -> Result<(), CameraError> {
         let out = |field, value, bound| Err(CameraError::OutOfRange { field, value, bound });
         for (field, value) in [("width", self.width), ("height", self.height)] {
-            if !(1..=16384).contains(&value) {
+            if !(Self::SIDE_PX.0..=Self::SIDE_PX.1).contains(&value) {
                 return out(field, f64::from(value), "1 to 16384 pixels");
             }
         }
         for (field, value) in [("fx", self.fx), ("fy", self.fy)] {
-            if !(value.is_finite() && value > 0.0 && value < 1e6) {
+            if !(value.is_finite() && value > 0.0 && value < Self::FARTHEST_PX) {
                 return out(field, value, "greater than 0 and less than 1e6 pixels");
             }
         }
         for (field, value) in [("cx", self.cx), ("cy", self.cy)] {
-            if !(value.is_finite() && value.abs() < 1e6) {
+            if !(value.is_finite() && value.abs() < Self::FARTHEST_PX) {
                 return out(field, value, "finite and less than 1e6 pixels in size");
             }
         }
         let d = &self.distortion;
         for (field, value) in [("k1", d.k1), ("k2", d.k2), ("p1", d.p1), ("p2", d.p2), ("k3", d.k3)] {
-            if !(value.is_finite() && value.abs() < 100.0) {
+            if !(value.is_finite() && value.abs() < Self::LARGEST_DISTORTION) {
                 return out(field, value, "finite and less than 100 in size");
             }
         }

@@ -1,17 +1,12 @@
 //! Bounds of a request's numbers, and the usual mistakes behind values outside them.
 
+use super::bounds::{FARTHEST_M, OBJECT_RADIUS_M, SHELL_RADIUS_M};
 use super::{
     Arm, ObjectSphere, PlanError, PlanRequest, UnreachableViews, ViewSource, Warning, hand_eye, photos,
     surroundings, work_bound,
 };
 use crate::views::{Band, MAX_VIEWS};
 
-/// Largest coordinate of the object's centre and of the table, metres: beyond any arm's reach.
-const FARTHEST_M: f64 = 5.0;
-/// Object radii, metres.
-const OBJECT_RADIUS_M: (f64, f64) = (0.005, 1.0);
-/// Largest radius of the view shell, metres.
-const SHELL_RADIUS_M: f64 = 3.0;
 /// The shell's radius over the object's: a camera closer than that is in the object.
 const SHELL_OVER_OBJECT: f64 = 1.05;
 
@@ -108,7 +103,7 @@ fn check_object(object: &ObjectSphere) -> Result<(), PlanError> {
 fn check_shell(request: &PlanRequest) -> Result<(), PlanError> {
     request.shell.band.validate()?;
     let radius_m = request.shell.radius_m;
-    length("view_space.radius", radius_m, 1e-3, SHELL_RADIUS_M)?;
+    length("view_space.radius", radius_m, SHELL_RADIUS_M.0, SHELL_RADIUS_M.1)?;
     let least_m = SHELL_OVER_OBJECT * request.object().radius_m;
     if radius_m < least_m {
         return Err(PlanError::number(

@@ -1,21 +1,15 @@
 //! What stands around the arm and hangs on its flange, and how its motion is timed.
 
+use super::bounds::{
+    LARGEST_MARGIN_M, LARGEST_YAW_RAD, MAX_KEEP_OUT, MAX_SOLIDS, SMALLEST_SHAPE_M, SMALLEST_SOLID_M,
+    SOLID_IN_CELL_M, SOLID_ON_FLANGE_M,
+};
 use super::{Arm, PlanError, PlanRequest, Warning, keep_out, length};
 use crate::motion::{Cell, CellObject, KeepOut, ObjectShape, Timing, default_camera_body, fixed_overlaps};
 use crate::robot::LinkShape;
 
-/// Most keep-out regions.
-pub const MAX_KEEP_OUT: usize = 64;
-/// Most solids of the camera's body, and of the tool.
-pub const MAX_SOLIDS: usize = 32;
-/// Largest clearance kept, metres.
-const LARGEST_MARGIN_M: f64 = 0.2;
-/// Smallest edge, radius or height of an object's shape, metres.
-const SMALLEST_SHAPE_M: f64 = 1e-3;
 /// What a shape may stand out of the object's sphere, relatively: rounding of its diagonal.
 const ROUNDING: f64 = 1e-6;
-/// Largest yaw of a box, radians.
-const LARGEST_YAW_RAD: f64 = std::f64::consts::TAU;
 
 /// Solids of the cell besides arm, object and table.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,20 +144,13 @@ pub(super) fn check_shape(shape: &ObjectShape, sphere_radius_m: f64) -> Result<(
     }
 }
 
-/// Largest coordinates and sizes of solids, metres: of those in the cell, and of those on the flange.
-const SOLID_BOUNDS_M: [(f64, f64); 2] = [(5.0, 10.0), (2.0, 2.0)];
-
 /// Checks the numbers of a solid that the request names `field`, before it becomes a shape:
 /// `at` are coordinates by path, `sizes` edge lengths, radii and heights.
 ///
 /// # Errors
 /// 422 of the first that is out of its bound; millimetres are named.
 pub fn check_solid(in_cell: bool, at: &[(String, f64)], sizes: &[(String, f64)]) -> Result<(), PlanError> {
-    let [cell, flange] = SOLID_BOUNDS_M;
-    let (farthest, largest) = if in_cell { cell } else { flange };
+    let (farthest, largest) = if in_cell { SOLID_IN_CELL_M } else { SOLID_ON_FLANGE_M };
     at.iter().try_for_each(|(field, value)| length(field, *value, -farthest, farthest))?;
     sizes.iter().try_for_each(|(field, value)| length(field, *value, SMALLEST_SOLID_M, largest))
 }
-
-/// Smallest edge, radius or height of a solid, metres.
-const SMALLEST_SOLID_M: f64 = 1e-4;

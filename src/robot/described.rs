@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use super::bounds::{JERKS, JOINTS, LIMIT_WIDEST_RAD, RATES};
 use super::geometric::GeometricKinematics;
 use super::ur::UrShape;
 use super::{
@@ -15,15 +16,6 @@ use crate::geometry::Pose;
 pub(super) const DEFAULT_RADIUS_M: f64 = 0.05;
 
 const LIMITS_SOURCE: &str = "the request's DH table; what it lacks is assumed and listed in the warnings.";
-
-/// Fewest and most moving joints of a described arm.
-pub(super) const JOINTS: std::ops::RangeInclusive<usize> = 6..=7;
-
-/// Largest angle that a described joint's limit may have, radians.
-const WIDEST_RAD: f64 = 4.0 * TAU;
-
-/// Bounds of speeds (rad/s) and accelerations (rad/s2) taken as meant.
-const RATES: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
 pub(super) fn from_dh(rows: &[DhRow], convention: DhConvention) -> Result<RobotModel, RobotError> {
     if !JOINTS.contains(&rows.len()) {
@@ -126,22 +118,19 @@ fn dh_member(field: &'static str) -> &'static str {
     }
 }
 
-/// Bounds of jerks taken as meant, rad/s3.
-const JERKS: std::ops::RangeInclusive<f64> = 1e-3..=1e6;
-
 /// Whether a described joint's limits are numbers an arm can have.
 pub(super) fn check_joint(joint: &Joint) -> Result<(), RobotError> {
     let refuse = |field, value, least, most, hint| {
         Err(RobotError::OutOfRange { joint: joint.name.clone(), field, value, least, most, hint })
     };
     const DEGREES: &str = "; degrees given as radians?";
-    if !(-WIDEST_RAD..=WIDEST_RAD).contains(&joint.lower_rad) {
-        return refuse("lower limit", joint.lower_rad, -WIDEST_RAD, WIDEST_RAD, DEGREES);
+    if !(-LIMIT_WIDEST_RAD..=LIMIT_WIDEST_RAD).contains(&joint.lower_rad) {
+        return refuse("lower limit", joint.lower_rad, -LIMIT_WIDEST_RAD, LIMIT_WIDEST_RAD, DEGREES);
     }
     // Below or at the lower limit there is no room to move; NaN fails the comparison too.
-    if !(joint.upper_rad > joint.lower_rad && joint.upper_rad <= WIDEST_RAD) {
-        let hint = if joint.upper_rad > WIDEST_RAD { DEGREES } else { "" };
-        return refuse("upper limit", joint.upper_rad, joint.lower_rad, WIDEST_RAD, hint);
+    if !(joint.upper_rad > joint.lower_rad && joint.upper_rad <= LIMIT_WIDEST_RAD) {
+        let hint = if joint.upper_rad > LIMIT_WIDEST_RAD { DEGREES } else { "" };
+        return refuse("upper limit", joint.upper_rad, joint.lower_rad, LIMIT_WIDEST_RAD, hint);
     }
     for (field, value) in [
         ("speed limit", joint.max_speed_rad_per_s),

@@ -2,11 +2,9 @@
 
 use nalgebra::{Translation3, UnitQuaternion};
 
+use super::bounds::{DH_LONGEST_M, DH_WIDEST_RAD};
 use super::{Chain, RobotError, Segment};
 use crate::geometry::{Pose, Vector};
-
-/// Longest plausible `a` or `d` of an arm, metres; more looks like millimetres.
-const LONGEST_M: f64 = 5.0;
 
 /// Which of the two DH conventions a table follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,8 +108,8 @@ fn check_row(index: usize, row: &DhRow) -> Result<(), RobotError> {
         }
         Err(RobotError::DhRow { row: index, field, value, least: -bound, most: bound, hint })
     };
-    lengths.into_iter().try_for_each(|l| check(l, LONGEST_M, "; millimetres given as metres?"))?;
-    angles.into_iter().try_for_each(|a| check(a, std::f64::consts::TAU, "; degrees given as radians?"))
+    lengths.into_iter().try_for_each(|l| check(l, DH_LONGEST_M, "; millimetres given as metres?"))?;
+    angles.into_iter().try_for_each(|a| check(a, DH_WIDEST_RAD, "; degrees given as radians?"))
 }
 
 #[cfg(test)]

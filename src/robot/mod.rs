@@ -5,6 +5,7 @@
 //! map joint angles to `base_from_flange` and back.
 
 mod axis;
+pub mod bounds;
 mod braking;
 mod chain;
 mod described;

@@ -1,16 +1,13 @@
 //! Limits that a cell sets in place of the maker's.
 
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
+use super::bounds::{JERKS, RATES};
 use super::{Joint, NumberGroup, RobotError, RobotModel, RobotWarning, Source};
 
 /// Farthest that a joint may be allowed to turn, radians: two turns.
 const WIDEST_RAD: f64 = 2.0 * TAU;
-
-/// Bounds of speeds (rad/s), accelerations (rad/s2) and jerks (rad/s3) taken as meant.
-const SPEED: (f64, f64) = (1e-3, 1e3);
-const ACCELERATION: (f64, f64) = (1e-3, 1e3);
-const JERK: (f64, f64) = (1e-3, 1e6);
 
 /// What replaces a joint's limits; `None` leaves the robot's own.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -64,6 +61,10 @@ impl RobotModel {
     }
 }
 
+fn span(range: RangeInclusive<f64>) -> (f64, f64) {
+    (*range.start(), *range.end())
+}
+
 fn replace(
     joint: &mut Joint,
     limits: &JointLimits,
@@ -104,14 +105,14 @@ fn replace(
         return Err(RobotError::Limit { joint: name.clone(), field, value, bound });
     }
     if let Some(speed) = limits.max_speed_rad_per_s {
-        joint.max_speed_rad_per_s = within("max_speed", speed, SPEED)?;
+        joint.max_speed_rad_per_s = within("max_speed", speed, span(RATES))?;
         warnings.extend(RobotWarning::speed_in_degrees(joint));
     }
     if let Some(acceleration) = limits.max_acceleration_rad_per_s2 {
-        joint.max_acceleration_rad_per_s2 = within("max_acceleration", acceleration, ACCELERATION)?;
+        joint.max_acceleration_rad_per_s2 = within("max_acceleration", acceleration, span(RATES))?;
     }
     if let Some(jerk) = limits.max_jerk_rad_per_s3 {
-        joint.max_jerk_rad_per_s3 = Some(within("max_jerk", jerk, JERK)?);
+        joint.max_jerk_rad_per_s3 = Some(within("max_jerk", jerk, span(JERKS))?);
     }
     if joint.lower_rad < own_lower || joint.upper_rad > own_upper {
         warnings.push(RobotWarning::limit_widened(format!(

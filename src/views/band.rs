@@ -16,6 +16,8 @@ pub struct Band {
 }
 
 impl Band {
+    /// Largest elevation, up or down, degrees.
+    pub const STEEPEST_DEG: f64 = 90.0;
     /// 5 to 90 degrees: the upper hemisphere without views that graze the table.
     pub const DEFAULT: Band =
         Band { min_elevation_rad: 5.0 * std::f64::consts::PI / 180.0, max_elevation_rad: FRAC_PI_2 };
@@ -40,7 +42,7 @@ impl Band {
     pub fn validate(&self) -> Result<(), ViewsError> {
         let (min, max) = (self.min_elevation_rad, self.max_elevation_rad);
         // Degrees turned into radians and back may miss 90 by an ulp.
-        let limit = FRAC_PI_2 + 1e-12;
+        let limit = Self::STEEPEST_DEG.to_radians() + 1e-12;
         for (field, value) in [("min_elevation", min), ("max_elevation", max)] {
             if !(value.abs() <= limit) {
                 return Err(ViewsError::Elevation { field, value_deg: value.to_degrees() });

@@ -6,6 +6,7 @@ mod cancel;
 mod capture;
 mod cell_bounds;
 mod checks;
+mod declared_bounds;
 mod deletion;
 mod determinism;
 mod doubts;

@@ -41,8 +41,16 @@ fn every_operation_tells_what_it_answers() {
     ] {
         assert!(paths.contains_key(path), "{path}");
     }
+    let mut names = std::collections::BTreeSet::new();
     for (path, methods) in paths {
         for (method, operation) in methods.as_object().unwrap() {
+            assert!(
+                names.insert(operation["operationId"].as_str().unwrap()),
+                "{method} {path} has another's name"
+            );
+            for refusal in ["422", "500"] {
+                assert!(operation["responses"][refusal].is_object(), "{refusal} of {method} {path}");
+            }
             assert!(operation["summary"].is_string(), "{method} {path}");
             assert!(!operation["responses"].as_object().unwrap().is_empty(), "{method} {path}");
         }

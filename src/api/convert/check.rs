@@ -8,16 +8,15 @@ use crate::api::wire::{
 };
 use crate::motion::{ClaimedView, Nearest, UNDERCUT_BOUND_M};
 use crate::plan::{ClaimedPlan, Finding, PlanRequest, PlanVerdict};
+use crate::views::MAX_VIEWS;
 
-/// Most views of a plan.
-const MOST_VIEWS: usize = 200;
 /// Largest angle (rad), speed (rad/s) and acceleration (rad/s2) of a point, and time (s): beyond any
 /// arm's, and small enough for every figure of the verdict to be one that JSON can hold.
-const MOST: [f64; 4] = [1e4, 1e6, 1e9, 1e7];
+pub const MOST_OF_POINT: [f64; 4] = [1e4, 1e6, 1e9, 1e7];
 /// Largest share of a limit that is told: what is beyond is wrong however much it is.
 const MOST_SHARE: f64 = 1e9;
 /// Most points of a trajectory that is judged.
-const MOST_POINTS: usize = 200_000;
+pub const MOST_POINTS: usize = 200_000;
 
 /// What the plan claims.
 ///
@@ -27,8 +26,8 @@ const MOST_POINTS: usize = 200_000;
 pub fn claimed_plan(json: CheckedPlanJson) -> Result<ClaimedPlan, Problem> {
     let points = json.trajectory.as_ref().map_or(0, |trajectory| trajectory.points.len());
     for (field, count, least, most) in [
-        ("plan.views", json.views.len(), 1, MOST_VIEWS),
-        ("plan.order", json.order.len(), 0, MOST_VIEWS),
+        ("plan.views", json.views.len(), 1, MAX_VIEWS),
+        ("plan.order", json.order.len(), 0, MAX_VIEWS),
         ("plan.trajectory.points", points, 0, MOST_POINTS),
     ] {
         if !(least..=most).contains(&count) {
@@ -55,7 +54,7 @@ pub fn claimed_plan(json: CheckedPlanJson) -> Result<ClaimedPlan, Problem> {
 
 /// Refuses numbers that are no arm's.
 fn check_points(points: &[TrajectoryPointJson]) -> Result<(), Problem> {
-    let [angle, speed, acceleration, time] = MOST;
+    let [angle, speed, acceleration, time] = MOST_OF_POINT;
     let within = |value: f64, most: f64| (-most..=most).contains(&value);
     for (index, point) in points.iter().enumerate() {
         let path = |member: &str| format!("plan.trajectory.points[{index}].{member}");

@@ -7,9 +7,9 @@ use crate::api::wire::PoseJson;
 use crate::geometry::Pose;
 
 /// Largest deviation of a quaternion's norm from 1.
-const NORM_TOLERANCE: f64 = 1e-3;
+pub const NORM_TOLERANCE: f64 = 1e-3;
 /// Largest coordinate, metres; what is beyond is no pose of an arm or its camera.
-const FARTHEST_M: f64 = 1e4;
+pub const FARTHEST_M: f64 = 1e4;
 
 /// The pose, its quaternion normalised.
 ///

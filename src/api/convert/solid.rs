@@ -11,7 +11,7 @@ use crate::plan::check_solid;
 use crate::robot::LinkShape;
 
 /// Longest name of a keep-out region, characters.
-const LONGEST_NAME: usize = 100;
+pub const LONGEST_NAME: usize = 100;
 
 /// The keep-out regions, in the base frame.
 ///
@@ -22,9 +22,8 @@ pub fn keep_out(regions: &[KeepOutJson]) -> Result<Vec<KeepOut>, Problem> {
     regions.iter().for_each(|region| *bearers.entry(&region.name).or_default() += 1);
     let region = |(index, json): (usize, &KeepOutJson)| {
         let path = format!("keep_out[{index}]");
-        let length = json.name.trim().chars().count();
-        if !(1..=LONGEST_NAME).contains(&length) {
-            let bound = format!("1 to {LONGEST_NAME} characters");
+        if json.name.trim().is_empty() || json.name.chars().count() > LONGEST_NAME {
+            let bound = format!("1 to {LONGEST_NAME} characters, not all of them blank");
             return Err(Problem::field("out_of_range", format!("{path}.name"), json.name.clone(), bound));
         }
         let solid = Solid {

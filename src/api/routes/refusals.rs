@@ -14,13 +14,13 @@ pub enum BodyRefusals {
     /// Body over 32 MiB
     #[response(status = 413, content_type = "application/problem+json")]
     TooLarge(ProblemJson),
-    /// Not application/json
+    /// Not application/json in UTF-8, or packed (Content-Encoding)
     #[response(status = 415, content_type = "application/problem+json")]
     OtherType(ProblemJson),
     /// A member is refused: field, value and bound tell
     #[response(status = 422, content_type = "application/problem+json")]
     Refused(ProblemJson),
-    /// Overloaded, with Retry-After; or photos were given and there is no model
+    /// Overloaded or not finished in time, with Retry-After; or photos were given and there is no model
     #[response(status = 503, content_type = "application/problem+json")]
     Unavailable(ProblemJson),
 }

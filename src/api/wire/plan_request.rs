@@ -37,7 +37,6 @@ pub struct PlanRequestJson {
         skip_serializing_if = "Option::is_none",
         deserialize_with = "super::whole::optional_whole"
     )]
-    #[schema(minimum = 1, maximum = 200)]
     pub view_count: Option<u32>,
     /// `initial` plans the path through the initial photo poses, ending at the top view.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -84,21 +83,17 @@ pub struct PlanRequestJson {
     /// Regions that nothing of the arm may enter, at most 64. Views that cannot be taken because of
     /// one are skipped with `obstacle_collision`, which names it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schema(max_items = 64)]
     pub keep_out: Vec<KeepOutJson>,
     /// The camera's body in the camera frame, at most 32 solids: replaces the body of a RealSense
     /// D435 and its bracket, which are assumed when it is left out. An empty list is no body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(max_items = 32)]
     pub camera_body: Option<Vec<SolidJson>>,
     /// What else is mounted on the flange, in the flange frame, at most 32 solids.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schema(max_items = 32)]
     pub tool: Vec<SolidJson>,
     /// Clearance kept from the object, the table and the keep-out regions in metres, 0 to 0.2;
     /// 0.01 when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(minimum = 0.0, maximum = 0.2)]
     pub margin: Option<f64>,
     /// How the motion is timed: share of the speed limits, rest at the views, time between points,
     /// bounded jerk. Each member has a default of its own.
@@ -111,7 +106,6 @@ pub struct PlanRequestJson {
         skip_serializing_if = "Option::is_none",
         deserialize_with = "super::whole::optional_whole"
     )]
-    #[schema(minimum = 1, maximum = 64)]
     pub roll_samples: Option<u32>,
     /// What becomes of views that the arm cannot reach: `replace` spreads as many views as asked for
     /// again over the part of the band that it can reach, `skip` leaves them out with their reasons.

@@ -10,6 +10,12 @@ use super::{CameraJson, ObjectJson, PoseJson, ViewSpaceJson, WarningJson};
 /// Photos of an object, to predict the number of views its reconstruction needs.
 #[derive(Clone, Debug, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[schema(example = json!({
+    "images": ["iVBORw0KGgoAAAANSUhEUgAA (the rest of a PNG or JPEG file in base64)"],
+    "object": {"center": [0.45, 0.0, 0.1], "radius": 0.1},
+    "camera": {"width": 1280, "height": 720, "fx": 915.607, "fy": 913.327, "cx": 647.145, "cy": 372.515},
+    "view_space": {"radius": 0.3}
+}))]
 pub struct PredictionRequest {
     /// 1 to 5 photos, PNG or JPEG in base64.
     pub images: Vec<String>,

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use super::asks::Asks;
+use super::bounds::MOST_ROWS_AND_COLUMNS;
 use super::{PlanError, PlanRequest, Warning, cell, check, work_bound};
 use crate::geometry::Point;
 use crate::motion::{Allowance, MotionError, Reach, Stop};
@@ -16,8 +17,8 @@ use crate::motion::{Allowance, MotionError, Reach, Stop};
 const RESOLUTION: (usize, usize) = (17, 36);
 /// The same for arms whose inverse kinematics are searched for numerically: milliseconds a pose.
 const RESOLUTION_NUMERIC: (usize, usize) = (6, 12);
-/// Most rows, columns and cells of the grid, and cells for arms of numeric kinematics.
-const MOST: (usize, usize, usize, usize) = (90, 360, 16_200, 648);
+/// Most cells of the grid, and of that for arms of numeric kinematics.
+const MOST_CELLS: (usize, usize) = (16_200, 648);
 
 /// Part of the work that may go into the grid; the rest is for places of the object.
 const GRID: f64 = 0.6;
@@ -90,10 +91,11 @@ pub fn reachability_until(
     let cell = cell(request, arm);
     let reach = Reach::new(&cell, arm.roll, arm.start_rad.as_deref())?;
     let default = if reach.is_quick() { RESOLUTION } else { RESOLUTION_NUMERIC };
-    let rows = within("elevations", elevations.unwrap_or(default.0), MOST.0)?;
-    let columns = within("azimuths", azimuths.unwrap_or(default.1), MOST.1)?;
-    within("azimuths", rows * columns, if reach.is_quick() { MOST.2 } else { MOST.3 }).map_err(|_| {
-        let most = if reach.is_quick() { MOST.2 } else { MOST.3 } / rows;
+    let rows = within("elevations", elevations.unwrap_or(default.0), MOST_ROWS_AND_COLUMNS.0)?;
+    let columns = within("azimuths", azimuths.unwrap_or(default.1), MOST_ROWS_AND_COLUMNS.1)?;
+    let most_cells = if reach.is_quick() { MOST_CELLS.0 } else { MOST_CELLS.1 };
+    within("azimuths", rows * columns, most_cells).map_err(|_| {
+        let most = most_cells / rows;
         PlanError::number(
             "out_of_range",
             "azimuths",

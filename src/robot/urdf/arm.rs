@@ -7,7 +7,8 @@ use super::joints::{axis, limits, origin};
 use super::shapes::gather;
 use super::tree::{Tree, element, turns};
 use crate::geometry::Pose;
-use crate::robot::described::{DEFAULT_RADIUS_M, JOINTS, kinematics_of, links_along};
+use crate::robot::bounds::JOINTS;
+use crate::robot::described::{DEFAULT_RADIUS_M, kinematics_of, links_along};
 use crate::robot::error::short;
 use crate::robot::{Chain, Link, LinkShape, Meshes, RobotError, RobotModel, RobotWarning, Segment, Source};
 

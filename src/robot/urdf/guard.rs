@@ -1,9 +1,7 @@
 //! Bounds on URDF text before a parser that recurses sees it.
 
 use crate::robot::RobotError;
-
-/// Longest URDF text, bytes.
-pub(super) const LONGEST_BYTES: usize = 1 << 20;
+use crate::robot::bounds::LONGEST_URDF_BYTES;
 
 /// Deepest nesting of elements; URDF itself needs six.
 const DEEPEST: usize = 32;
@@ -11,8 +9,8 @@ const DEEPEST: usize = 32;
 /// Refuses text that is too long or nested too deeply, and declarations that URDF has no use for.
 pub(super) fn check_text(text: &str) -> Result<(), RobotError> {
     let refuse = |problem: String| Err(RobotError::Urdf(problem));
-    if text.len() > LONGEST_BYTES {
-        return refuse(format!("{} bytes long, at most {LONGEST_BYTES} are read", text.len()));
+    if text.len() > LONGEST_URDF_BYTES {
+        return refuse(format!("{} bytes long, at most {LONGEST_URDF_BYTES} are read", text.len()));
     }
     let mut depth = 0usize;
     let mut rest = text;
@@ -70,7 +68,7 @@ mod tests {
     #[test]
     fn deep_nesting_and_long_text_are_refused_before_parsing() {
         assert!(check_text(&"<a>".repeat(100_000)).unwrap_err().to_string().contains("nested"));
-        assert!(check_text(&"x".repeat(LONGEST_BYTES + 1)).unwrap_err().to_string().contains("at most"));
+        assert!(check_text(&"x".repeat(LONGEST_URDF_BYTES + 1)).unwrap_err().to_string().contains("at most"));
         assert!(check_text("<!DOCTYPE a [<!ENTITY b 'c'>]><a/>").is_err());
         assert!(check_text("<a b='>").is_err());
     }

@@ -196,7 +196,7 @@ fn what_is_no_urdf_is_said_so() {
 
 #[test]
 fn the_largest_text_is_refused_or_read_without_harm() {
-    let most = super::guard::LONGEST_BYTES - 100;
+    let most = crate::robot::bounds::LONGEST_URDF_BYTES - 100;
     for piece in
         ["<link name='a'/>", "<joint/>", "<!-- -->", "<link name='&amp;'><visual/></link>", "<x y='z'>t</x>"]
     {

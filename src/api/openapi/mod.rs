@@ -1,5 +1,11 @@
-//! The OpenAPI document.
+//! The OpenAPI document: routes and schemas out of the code, bounds out of the constants that are checked.
 
+mod bounds;
+mod everywhere;
+mod table;
+
+use bounds::Bounds;
+use everywhere::Everywhere;
 use utoipa::OpenApi;
 
 use super::problem::ProblemJson;
@@ -26,6 +32,7 @@ use super::routes::{
         images::get, images::transforms, objects::list, health::live, health::ready,
     ),
     components(schemas(ProblemJson)),
+    modifiers(&Bounds, &Everywhere),
     tags(
         (name = "plans", description = "Plan views, order and motion"),
         (name = "views", description = "View sets"),
