@@ -12,7 +12,7 @@ TURNS     ?= models/training/runs/turns
 COMPARE   ?= models/training/runs/compare
 # Objects of Table I, and sizes of each that networks learn from.
 LIMIT     ?= 260
-SIZES     ?= 1
+SIZES     ?= 2
 ENCODER   ?= efficientnet_lite0
 TRAIN_ENV := models/training/.venv
 # Any number: the cases that the property tests draw, the same in every run unless another is given.

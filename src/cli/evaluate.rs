@@ -54,7 +54,7 @@ struct TableOneArgs {
     out: PathBuf,
     /// How many sizes of each object the networks have learnt from: mode, median and mean are of the same labels. What
     /// is judged is the first size of each object that is held out.
-    #[arg(long, env = "PRV_SIZES", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, env = "PRV_SIZES", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..))]
     sizes: u64,
     /// At most this many objects, the first of the label file.
     #[arg(long, env = "PRV_LIMIT")]

@@ -24,7 +24,9 @@ pub enum CandidateError {
     #[error("the model does not say which objects it holds out (metadata prv.turn): export it again")]
     UnknownTurn,
     /// It has learnt from labels that the file lacks, so that what it holds out of the file tells nothing.
-    #[error("the model has learnt from {trained_on} labels, of those it may know the file has {known}")]
+    #[error(
+        "the model has learnt from {trained_on} labels, of those it may know the file has {known} in its first sizes (--sizes)"
+    )]
     OtherLabels {
         /// Labels it has learnt from.
         trained_on: u32,
@@ -98,20 +100,24 @@ mod tests {
         let twice = Candidate::all(vec![shipped(), shipped()], &[], 1);
         assert_eq!(twice.err(), Some(CandidateError::NoKnownLabel));
         let records = crate::label::store::read_labels("models/labels.csv".as_ref()).unwrap();
-        let twice = Candidate::all(vec![shipped(), shipped()], &records, 1);
+        let twice = Candidate::all(vec![shipped(), shipped()], &records, 2);
         assert_eq!(twice.err(), Some(CandidateError::SameTurn(turn)));
-        let few = Candidate::all(vec![shipped()], &records[..100], 1);
+        let few = Candidate::all(vec![shipped()], &records[..100], 2);
         assert!(matches!(few.err(), Some(CandidateError::OtherLabels { known: ..100, .. })));
-
-        let candidate = Candidate::all(vec![shipped()], &records, 1).unwrap().remove(0);
         let first_sizes = records.iter().filter(|record| record.draw == 0).count();
+        let one = Candidate::all(vec![shipped()], &records, 1);
+        assert!(
+            matches!(one.err(), Some(CandidateError::OtherLabels { known, .. }) if known < first_sizes),
+            "it has learnt from both sizes"
+        );
+
+        let candidate = Candidate::all(vec![shipped()], &records, 2).unwrap().remove(0);
         let judged = records.iter().filter(|record| candidate.may_be_judged_on(record)).count();
         assert!((first_sizes / 10..first_sizes / 3).contains(&judged), "{judged} of {first_sizes}");
-        assert_eq!(candidate.known + judged, first_sizes);
-        let both_sizes = Candidate::all(vec![shipped()], &records, 2).unwrap().remove(0);
-        assert!(both_sizes.known > candidate.known);
+        let held_out = records.iter().filter(|record| is_held_out(&record.object, turn)).count();
+        assert_eq!(candidate.known + held_out, records.len());
         assert!(
-            records.iter().all(|record| !(record.draw == 1 && both_sizes.may_be_judged_on(record))),
+            records.iter().all(|record| !(record.draw == 1 && candidate.may_be_judged_on(record))),
             "two sizes of an object are not independent"
         );
     }
