@@ -11,8 +11,8 @@ async fn a_cancelled_run_keeps_its_photos_and_a_queued_one_never_starts() {
     let plan = server.post_json("/v1/plans", &with(cell(), json!({"view_count": 6}))).await;
     // The first photo comes at 0.3 simulated seconds, the second a second later.
     let slow = json!({"plan_id": plan["id"], "object": {"sample": "mug"}, "speed_factor": 0.5});
-    let running = server.post_json("/v1/executions", &slow).await["id"].as_str().unwrap().to_owned();
-    let queued = server.post_json("/v1/executions", &slow).await["id"].as_str().unwrap().to_owned();
+    let running = server.start_execution(&slow).await;
+    let queued = server.start_execution(&slow).await;
 
     let cancelled = server.post_json(&format!("/v1/executions/{queued}/cancel"), &json!({})).await;
     assert_eq!(cancelled["state"], "cancelled");

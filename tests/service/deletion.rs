@@ -9,17 +9,12 @@ async fn delete(server: &Server, path: &str) -> Response {
     server.client.delete(format!("{}{path}", server.url)).send().await.unwrap()
 }
 
-async fn start(server: &Server, plan: &Value, speed_factor: f64) -> String {
-    let body = json!({"plan_id": plan["id"], "object": {"sample": "mug"}, "speed_factor": speed_factor});
-    server.post_json("/v1/executions", &body).await["id"].as_str().unwrap().to_owned()
-}
-
 #[tokio::test]
 async fn a_run_is_deleted_with_its_files_once_it_is_over_and_its_number_is_not_used_again() {
     let data = tempfile::tempdir().unwrap();
     let server = Server::start(data.path());
     let plan = server.post_json("/v1/plans", &with(cell(), json!({"view_count": 3}))).await;
-    let run = start(&server, &plan, 0.01).await;
+    let run = server.start_run(&plan, "mug", 0.01).await;
     let path = format!("/v1/executions/{run}");
     server.wait_for(&run, &["running"]).await;
     let refused = problem(delete(&server, &path).await).await;
@@ -44,7 +39,7 @@ async fn a_run_is_deleted_with_its_files_once_it_is_over_and_its_number_is_not_u
 
     let server = Server::start(data.path());
     assert_eq!(server.get_json("/v1/executions").await, json!({"executions": []}));
-    assert_ne!(start(&server, &plan, 100_000.0).await, run);
+    assert_ne!(server.start_run(&plan, "mug", 100_000.0).await, run);
 }
 
 #[tokio::test]
@@ -54,11 +49,11 @@ async fn a_plan_is_deleted_unless_a_run_waits_for_it_and_its_runs_keep_what_they
     let request = with(cell(), json!({"view_count": 3}));
     let plan = server.post_json("/v1/plans", &request).await;
     let path = format!("/v1/plans/{}", plan["id"].as_str().unwrap());
-    let done = start(&server, &plan, 100_000.0).await;
+    let done = server.start_run(&plan, "mug", 100_000.0).await;
     server.wait_for(&done, &["done"]).await;
-    let moving = start(&server, &plan, 0.01).await;
+    let moving = server.start_run(&plan, "mug", 0.01).await;
     server.wait_for(&moving, &["running"]).await;
-    let waiting = start(&server, &plan, 1.0).await;
+    let waiting = server.start_run(&plan, "mug", 1.0).await;
     let refused = problem(delete(&server, &path).await).await;
     assert_eq!((refused["status"].as_u64(), refused["code"].as_str()), (Some(409), Some("plan_in_use")));
     let bound = refused["bound"].as_str().unwrap();

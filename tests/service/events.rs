@@ -24,7 +24,7 @@ async fn a_listener_sees_every_view_and_catches_up_after_a_break() {
     let server = Server::start(data.path());
     let plan = server.post_json("/v1/plans", &with(cell(), json!({"view_count": 4}))).await;
     let request = json!({"plan_id": plan["id"], "object": {"sample": "parcel"}, "speed_factor": 10.0});
-    let run = server.post_json("/v1/executions", &request).await["id"].as_str().unwrap().to_owned();
+    let run = server.start_execution(&request).await;
 
     // The stream ends with the run.
     let path = format!("/v1/executions/{run}/events");

@@ -90,6 +90,18 @@ impl Server {
         value
     }
 
+    /// Starts a run; its id.
+    pub async fn start_execution(&self, request: &Value) -> String {
+        self.post_json("/v1/executions", request).await["id"].as_str().unwrap().to_owned()
+    }
+
+    /// Starts a run that follows `plan` about a sample object, at so many simulated seconds a second; its id.
+    pub async fn start_run(&self, plan: &Value, sample: &str, speed_factor: f64) -> String {
+        let object = json!({"sample": sample});
+        self.start_execution(&json!({"plan_id": plan["id"], "object": object, "speed_factor": speed_factor}))
+            .await
+    }
+
     /// Waits for a run to reach one of `states`.
     pub async fn wait_for(&self, run: &str, states: &[&str]) -> Value {
         let begin = std::time::Instant::now();

@@ -15,7 +15,7 @@ async fn plans_and_finished_runs_outlive_a_power_cut() {
     let plan: Value = serde_json::from_slice(&bytes).unwrap();
     let path = format!("/v1/plans/{}", plan["id"].as_str().unwrap());
     let execution = json!({"plan_id": plan["id"], "object": {"sample": "globe"}, "speed_factor": 100000.0});
-    let run = server.post_json("/v1/executions", &execution).await["id"].as_str().unwrap().to_owned();
+    let run = server.start_execution(&execution).await;
     let done = server.wait_for(&run, &["done"]).await;
     server.kill();
 
@@ -33,11 +33,6 @@ async fn plans_and_finished_runs_outlive_a_power_cut() {
 }
 
 /// Starts a run of a globe; returns its id.
-async fn start(server: &Server, plan: &Value, speed_factor: f64) -> String {
-    let body = json!({"plan_id": plan["id"], "object": {"sample": "globe"}, "speed_factor": speed_factor});
-    server.post_json("/v1/executions", &body).await["id"].as_str().unwrap().to_owned()
-}
-
 async fn run(server: &Server, id: &str) -> Value {
     server.get_json(&format!("/v1/executions/{id}")).await
 }
@@ -50,9 +45,9 @@ async fn a_moving_run_is_interrupted_by_the_end_of_the_service_and_a_waiting_one
     let data = tempfile::tempdir().unwrap();
     let server = Server::start_with(data.path(), &["--arms", "1", "--shutdown-timeout-s", "60"]);
     let plan = server.post_json("/v1/plans", &with(cell(), json!({"view_count": 4}))).await;
-    let moving = start(&server, &plan, SLOW).await;
+    let moving = server.start_run(&plan, "globe", SLOW).await;
     server.wait_for(&moving, &["running"]).await;
-    let waiting = start(&server, &plan, FAST).await;
+    let waiting = server.start_run(&plan, "globe", FAST).await;
     let listener = server.get(&format!("/v1/executions/{waiting}/events")).await;
     let begin = std::time::Instant::now();
     assert_eq!(server.terminate(), Some(0), "SIGTERM ends the service in order");
@@ -75,13 +70,13 @@ async fn waiting_runs_outlive_a_power_cut_in_their_order() {
     let data = tempfile::tempdir().unwrap();
     let server = Server::start_with(data.path(), &["--arms", "1"]);
     let plan = server.post_json("/v1/plans", &with(cell(), json!({"view_count": 4}))).await;
-    let moving = start(&server, &plan, SLOW).await;
+    let moving = server.start_run(&plan, "globe", SLOW).await;
     server.wait_for(&moving, &["running"]).await;
     let mut waiting = Vec::new();
     for _ in 0..3 {
-        waiting.push(start(&server, &plan, FAST).await);
+        waiting.push(server.start_run(&plan, "globe", FAST).await);
     }
-    let dropped = start(&server, &plan, FAST).await;
+    let dropped = server.start_run(&plan, "globe", FAST).await;
     server.post_json(&format!("/v1/executions/{dropped}/cancel"), &json!({})).await;
     server.kill();
 
@@ -113,9 +108,10 @@ async fn a_waiting_run_whose_request_or_plan_is_gone_says_so() {
     let server = Server::start_with(data.path(), &["--arms", "1"]);
     let plan = server.post_json("/v1/plans", &with(cell(), json!({"view_count": 4}))).await;
     let other = server.post_json("/v1/plans", &with(cell(), json!({"view_count": 3}))).await;
-    let moving = start(&server, &plan, SLOW).await;
+    let moving = server.start_run(&plan, "globe", SLOW).await;
     server.wait_for(&moving, &["running"]).await;
-    let (old, planless) = (start(&server, &plan, FAST).await, start(&server, &other, FAST).await);
+    let (old, planless) =
+        (server.start_run(&plan, "globe", FAST).await, server.start_run(&other, "globe", FAST).await);
     server.kill();
     // As an earlier version left it: no request, and no object in the record.
     let files = data.path().join("executions").join(&old);
@@ -140,11 +136,11 @@ async fn the_photos_of_a_killed_run_come_with_their_poses() {
     let data = tempfile::tempdir().unwrap();
     let server = Server::start(data.path());
     let plan = server.post_json("/v1/plans", &with(cell(), json!({"view_count": 6}))).await;
-    let id = start(&server, &plan, 1.0).await;
+    let id = server.start_run(&plan, "globe", 1.0).await;
     while run(&server, &id).await["images"].as_array().unwrap().len() < 2 {
         tokio::time::sleep(std::time::Duration::from_millis(20)).await;
     }
-    let whole = start(&server, &plan, FAST).await;
+    let whole = server.start_run(&plan, "globe", FAST).await;
     server.wait_for(&whole, &["done"]).await;
     let transforms = |id: &str| format!("/v1/executions/{id}/transforms.json");
     let written = server.get(&transforms(&whole)).await.bytes().await.unwrap();

@@ -26,7 +26,7 @@ async fn a_robot_given_by_its_dh_table_goes_where_the_named_one_does() {
     assert_eq!(described["path_length_m"], named["path_length_m"]);
     assert_eq!(described["trajectory"]["joint_names"].as_array().unwrap().len(), 6);
     let run = json!({"plan_id": described["id"], "object": {"sample": "bottle"}, "speed_factor": 100000.0});
-    let run = server.post_json("/v1/executions", &run).await["id"].as_str().unwrap().to_owned();
+    let run = server.start_execution(&run).await;
     assert_eq!(server.wait_for(&run, &["done", "failed"]).await["state"], "done");
 }
 
