@@ -7,13 +7,15 @@ MADE      ?= 'made:*/0..24'
 LABELS    ?= models/labels.csv
 REPEATS   ?= models/label_repeats.csv
 INPUTS    ?= models/training/data/inputs
-RUN       ?= models/training/runs/prvnet
 TURNS     ?= models/training/runs/turns
 COMPARE   ?= models/training/runs/compare
 # Objects of Table I, and sizes of each that networks learn from.
 LIMIT     ?= 260
 SIZES     ?= 2
-ENCODER   ?= efficientnet_lite0
+# How a network is made: solved on Lite0's own features, then tuned whole.
+RECIPE    ?= --encoder efficientnet_lite0 --size 128 --sizes $(SIZES) --statuses ok,not_converged --no-freeze --head ridge \
+  --variants 8 --batch 16 --encoder-lr 1.6e-3 --lr 1e-5 --loss huber --epochs 8
+RUNS      := $(foreach turn,0 1 2 3 4,$(abspath $(TURNS))/$(turn))
 TRAIN_ENV := models/training/.venv
 # Any number: the cases that the property tests draw, the same in every run unless another is given.
 PROPTEST_RNG_SEED ?= 20
@@ -104,28 +106,31 @@ $(TRAIN_ENV)/.done: models/training/requirements.txt
 	$(TRAIN_ENV)/bin/pip install -q --disable-pip-version-check -r $<
 	touch $@
 
-## Trains PRVNet on the labels, exports models/prvnet.onnx and writes its figures into the model card.
+## Trains five networks that together hold every object out once, exports the first of them as models/prvnet.onnx and
+## writes its figures into the model card. The interval of each is by the errors of the others on what those hold out.
 # Curves that some view set lifts above their 100-view ceiling are within the noise of one NeRF, so both
 # statuses count.
-train: inputs train-env
-	cd models/training && .venv/bin/python -m prvnet.train --labels $(abspath $(LABELS)) --inputs $(abspath $(INPUTS)) \
-	  --encoder $(ENCODER) --sizes $(SIZES) --statuses ok,not_converged --out $(abspath $(RUN))
-	cd models/training && .venv/bin/python -m prvnet.export --run $(abspath $(RUN)) --out $(abspath models/prvnet.onnx)
-	cd models/training && .venv/bin/python -m prvnet.parity --run $(abspath $(RUN)) --model $(abspath models/prvnet.onnx) \
+train: turns
+	cp $(TURNS)/0.onnx models/prvnet.onnx
+	cd models/training && .venv/bin/python -m prvnet.parity --run $(abspath $(TURNS))/0 --model $(abspath models/prvnet.onnx) \
 	  --inputs $(abspath $(INPUTS)) --golden $(abspath models/prvnet.golden.json)
-	cd models/training && .venv/bin/python -m prvnet.card --run $(abspath $(RUN)) --model $(abspath models/prvnet.onnx) \
-	  --repeats $(abspath $(REPEATS)) --compare $(abspath $(COMPARE))/compare.md --card $(abspath models/MODEL_CARD.md)
+	cd models/training && .venv/bin/python -m prvnet.card --run $(abspath $(TURNS))/0 --model $(abspath models/prvnet.onnx) \
+	  --sisters $(RUNS) --repeats $(abspath $(REPEATS)) --compare $(abspath $(COMPARE))/compare.md \
+	  --card $(abspath models/MODEL_CARD.md)
 	$(MAKE) pictures
 
-## Five networks like it that together hold every object out once; those that are there stay.
-turns: $(foreach turn,0 1 2 3 4,$(TURNS)/$(turn).onnx)
-$(TURNS)/%.onnx: | inputs train-env
+## Those five; what is there stays, what was stopped goes on.
+turns: $(RUNS:=.onnx)
+$(RUNS:=.trained): %.trained: | inputs train-env
+	mkdir -p $(TURNS)
 	cd models/training && .venv/bin/python -m prvnet.train --labels $(abspath $(LABELS)) --inputs $(abspath $(INPUTS)) \
-	  --encoder $(ENCODER) --sizes $(SIZES) --statuses ok,not_converged --turn $* --out $(abspath $(TURNS))/$*
-	cd models/training && .venv/bin/python -m prvnet.export --run $(abspath $(TURNS))/$* --out $(abspath $@)
+	  $(RECIPE) --turn $(notdir $*) --out $*
+	touch $@
+$(RUNS:=.onnx): %.onnx: $(RUNS:=.trained)
+	cd models/training && .venv/bin/python -m prvnet.export --run $* --sisters $(RUNS) --out $@
 
 ## The paper's Table I on the first 260 objects, each by the network that holds it out; ten CPU seconds an object,
-## resumable. New labels want TURNS, RUN and COMPARE emptied: what is there is of other labels.
+## resumable. New labels want TURNS and COMPARE emptied: what is there is of other labels.
 ## models/table1/reconstructions.csv may stay, what a number of views leads to does not depend on the networks, until
 ## objects, renderer, view sets or the NeRF change.
 table1: $(OBJECTS)/.done build turns

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use prv::evaluate::candidate::Candidate;
+use prv::evaluate::candidate::{Candidate, CandidateError};
 use prv::evaluate::plot::bars;
 use prv::evaluate::store::ReconstructionStore;
 use prv::evaluate::table_one::TableOne;
@@ -147,7 +147,10 @@ fn candidates(
     for path in models {
         predictors.push(Predictor::load(&model_bytes(Some(path))?, 1, 1)?);
     }
-    Ok(Candidate::all(predictors, records, sizes)?)
+    Candidate::all(predictors, records, sizes).map_err(|error| match error {
+        CandidateError::OtherLabels { .. } => format!("{error}: --sizes says which").into(),
+        other => other.into(),
+    })
 }
 
 /// Replaces a file of the folder by a whole one.

@@ -7,11 +7,11 @@ use std::sync::Mutex;
 use image::RgbaImage;
 use indicatif::{ProgressBar, ProgressStyle};
 use prv::files::replace_unsynced;
-use prv::geometry::Point;
+use prv::geometry::{Point, Pose, Vector};
 use prv::imaging::Camera;
 use prv::objects::{ObjectEntry, ObjectLookup};
 use prv::predict::crop;
-use prv::render::{RenderSettings, Renderer};
+use prv::render::{Light, RenderSettings, Renderer};
 use prv::views::{Band, ViewSpace, initial_views_five};
 use sha2::{Digest, Sha256};
 
@@ -40,6 +40,9 @@ pub struct Args {
     /// Side of the crops, pixels; best the model's own input size, which is then never resampled.
     #[arg(long, env = "PRV_CROP_SIZE", default_value_t = 224, value_parser = clap::value_parser!(u32).range(32..=1024))]
     size: u32,
+    /// Turn the objects about their vertical axis by so much: other sides of them, to learn from.
+    #[arg(long, env = "PRV_YAW_DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    yaw_deg: f64,
     /// Objects rendered side by side; 0 for one a core.
     #[arg(long, env = "PRV_JOBS", default_value_t = 1)]
     jobs: usize,
@@ -58,6 +61,9 @@ struct LabelledRow {
 
 /// Renders what is missing.
 pub fn run(args: &Args) -> CliResult {
+    if !args.yaw_deg.is_finite() {
+        return Err(format!("--yaw-deg is {}, must be a number", args.yaw_deg).into());
+    }
     let rows = read_rows(&args.labels)?;
     let objects = ObjectLookup::new(&args.objects)?;
     std::fs::create_dir_all(&args.out)?;
@@ -125,20 +131,29 @@ fn read_rows(path: &Path) -> Result<Vec<LabelledRow>, Box<dyn std::error::Error>
 /// Writes the row's five crops unless they are there.
 fn photograph(entry: &ObjectEntry, row: &LabelledRow, args: &Args) -> CliResult {
     let folder = args.out.join(&row.id);
-    let views = initial_views_five();
-    if is_complete(&folder, views.len(), args.size) {
+    if is_complete(&folder, initial_views_five().len(), args.size) {
         return Ok(());
     }
     std::fs::create_dir_all(&folder)?;
     let renderer = Renderer::new(&entry.load()?.fitted(Point::origin(), row.radius_m));
+    for (k, crop) in crops(&renderer, args.yaw_deg.to_radians(), args.size).enumerate() {
+        save(&crop, &folder.join(format!("{k}.png")))?;
+    }
+    Ok(())
+}
+
+/// Crops of the five initial views of an object about the origin that is turned about its vertical axis.
+fn crops(renderer: &Renderer, yaw_rad: f64, size: u32) -> impl Iterator<Item = RgbaImage> {
+    // An object that is turned is seen and lit as one at rest by a camera and lights that are turned back.
+    let turn = Pose::rotation(Vector::z() * -yaw_rad);
+    let settings = RenderSettings { light: Light::default().turned(-yaw_rad), ..RenderSettings::default() };
     let space = ViewSpace { center_in_base: Point::origin(), radius_m: VIEW_RADIUS_M, band: Band::DEFAULT };
     let camera = Camera::REALSENSE_D435;
     let center_in_camera = Point::new(0.0, 0.0, VIEW_RADIUS_M);
-    for (k, view) in views.iter().enumerate() {
-        let photo = renderer.render(&camera, &space.pose(&view.direction, 0.0), &RenderSettings::default());
-        save(&crop(&photo, &camera, &center_in_camera, args.size), &folder.join(format!("{k}.png")))?;
-    }
-    Ok(())
+    initial_views_five().into_iter().map(move |view| {
+        let photo = renderer.render(&camera, &(turn * space.pose(&view.direction, 0.0)), &settings);
+        crop(&photo, &camera, &center_in_camera, size)
+    })
 }
 
 fn is_complete(folder: &Path, count: usize, size: u32) -> bool {
@@ -160,4 +175,30 @@ fn write_index<'a>(out: &Path, rows: impl Iterator<Item = &'a LabelledRow>) -> C
         writer.write_record([&row.id, &row.key[0], &row.key[1], &row.key[2]])?;
     }
     Ok(replace_unsynced(&out.join("index.csv"), &writer.into_inner()?)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use prv::render::sample_object;
+
+    use super::*;
+
+    /// Mean difference of a channel, steps.
+    fn apart(a: &RgbaImage, b: &RgbaImage, channel: usize) -> f64 {
+        let each = a.pixels().zip(b.pixels()).map(|(a, b)| f64::from(a[channel].abs_diff(b[channel])));
+        each.sum::<f64>() / f64::from(a.width() * a.height())
+    }
+
+    #[test]
+    fn an_object_that_is_turned_shows_its_other_sides_in_the_same_light() {
+        let mug = Renderer::new(&sample_object("mug").unwrap().fitted(Point::origin(), 0.08));
+        let turned_by = |yaw_deg: f64| crops(&mug, yaw_deg.to_radians(), 96).collect::<Vec<_>>();
+        let (rest, turned, whole) = (turned_by(0.0), turned_by(80.0), turned_by(360.0));
+        // Front stands 80 degrees on from left.
+        let (left, front, alpha, red) = (1, 2, 3, 0);
+        assert!(apart(&rest[left], &turned[front], alpha) < 0.05, "front shows what left did");
+        assert!(apart(&rest[left], &rest[front], alpha) > 1.0, "the mug's handle tells the sides apart");
+        assert!(apart(&rest[left], &turned[front], red) > 1.0, "the light has stayed where it was");
+        assert!((0..4).all(|channel| apart(&rest[left], &whole[left], channel) < 0.05));
+    }
 }

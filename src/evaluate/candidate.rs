@@ -25,7 +25,7 @@ pub enum CandidateError {
     UnknownTurn,
     /// It has learnt from labels that the file lacks, so that what it holds out of the file tells nothing.
     #[error(
-        "the model has learnt from {trained_on} labels, of those it may know the file has {known} in its first sizes (--sizes)"
+        "the model has learnt from {trained_on} labels, of those it may know the file has {known} in the first sizes that count"
     )]
     OtherLabels {
         /// Labels it has learnt from.

@@ -34,6 +34,19 @@ impl Default for Light {
     }
 }
 
+impl Light {
+    /// The lights turned about the world's z axis by so many radians, anticlockwise from above.
+    #[must_use]
+    pub fn turned(&self, yaw_rad: f64) -> Light {
+        let (sin, cos) = (yaw_rad.sin() as f32, yaw_rad.cos() as f32);
+        let turned = |light: &DirectionalLight| {
+            let [x, y, z] = light.towards_light_in_world;
+            DirectionalLight { towards_light_in_world: [cos * x - sin * y, sin * x + cos * y, z], ..*light }
+        };
+        Light { key: turned(&self.key), fill: turned(&self.fill), ..*self }
+    }
+}
+
 /// [`Light`] made ready for many evaluations.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedLight {

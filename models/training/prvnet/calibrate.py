@@ -5,6 +5,7 @@ Both come from the objects that the run trained on or chose by, never from those
 
 import argparse
 import csv
+import json
 import math
 from pathlib import Path
 
@@ -13,23 +14,28 @@ import torch
 from tqdm import tqdm
 
 from . import INITIAL_IMAGES, MAX_IMAGES, novelty, ridge
+from .epochs import VALIDATION_VARIANTS, epoch_of, evaluate, optimizer_of
 from .model import PRVNet
+from .runs import fitted, load_best, solved, start, trained_state, tuned
 from .sources import Bank, Photos
 from .splits import FOLDS, fold_of
-from .train import VALIDATION_VARIANTS, epoch_of, evaluate, fitted, optimizer_of, start, trained_state
 
 TURNS = 5
 # Epochs without a better one after which a network is taken as it was best: heads are at theirs within twenty.
 PATIENCE = 40
+# Shoots of each row that the novelty is fitted to where no features of them are kept.
+NOVELTY_SHOOTS = 2
 
 
-def source_of(config, inputs: Path, bank: Path, rows, network):
-    if config["freeze"]:
-        return Bank(bank, inputs, rows, network, config["variants"], torch.device("cpu"))
-    return Photos(inputs, rows, config["size"])
+def sources_of(run: Path, config: dict, inputs: Path, bank: Path, rows) -> tuple:
+    """What the recipe trains from, and the features that a ridge is solved on; None where it takes no such thing."""
+    features = None
+    if config["freeze"] or tuned(config):
+        features = Bank(bank, inputs, rows, start(config, run), config["variants"], torch.device("cpu"))
+    return features if config["freeze"] else Photos(inputs, rows, config["size"]), features
 
 
-def left_out_answers(run: Path, config: dict, source, rows, turns: int = TURNS) -> np.ndarray:
+def left_out_answers(run: Path, config: dict, source, features, rows, turns: int = TURNS) -> np.ndarray:
     """[rows, shoots] answers to `rows`, each by a network of the same recipe that was not trained on its object.
 
     Of ten folds by object each network has two left out and one to choose by, as the run itself.
@@ -54,10 +60,12 @@ def left_out_answers(run: Path, config: dict, source, rows, turns: int = TURNS) 
             torch.manual_seed(config["seed"] + 1 + turn)
             network = start(settings, run)
             if config["head"] == "ridge":
-                ridge.fit(network, source, learnt, settings)
-                bar.update()
+                ridge.fit(network, features, learnt, settings)
             else:
                 network.start_at(float(np.median(views)))
+            if solved(config):
+                bar.update()
+            else:
                 network.encoder.requires_grad_(not config["freeze"])
                 train_until_best(network, source, known, validation or known, settings, bar)
             network.eval()
@@ -85,30 +93,73 @@ def train_until_best(network, source, known, validation, settings: dict, bar):
     (network.heads if settings["freeze"] else network).load_state_dict(kept)
 
 
-def residuals(run: Path, config: dict, source, rows, turns: int = TURNS) -> np.ndarray:
+def residuals(run: Path, config: dict, source, features, rows, turns: int = TURNS) -> np.ndarray:
     """[rows, shoots] labels less answers; kept in the run's residuals.csv, which is used if it is of these rows."""
-    path, ids = run / "residuals.csv", [row.id for row in rows]
+    return kept(run / "residuals.csv", rows, lambda: left_out_answers(run, config, source, features, rows, turns))
+
+
+def sisters_residuals(sisters: list[Path], config: dict, inputs: Path, rows) -> np.ndarray:
+    """[rows, shoots] labels less answers, each by the one of `sisters` that holds its object out: runs that differ in
+    nothing but the turn. Each keeps its own in its held_out.csv."""
+    table, place = np.full((len(rows), VALIDATION_VARIANTS), np.nan), {row.id: k for k, row in enumerate(rows)}
+    for sister in sisters:
+        settings = json.loads((sister / "config.json").read_text())
+        if recipe_of(settings) != recipe_of(config):
+            raise SystemExit(f"{sister} is a run of another recipe")
+        held_out = set(settings["rows"]["test"])
+        # In one order, whoever asks, so that the file is found to be of these rows.
+        own = sorted((row for row in rows if row.id in held_out), key=lambda row: row.id)
+        if not own:
+            continue
+        if len(own) != len(held_out):
+            raise SystemExit(f"{sister} holds objects out that this run does as well, or of other labels")
+        table[[place[row.id] for row in own]] = kept(sister / "held_out.csv", own, lambda: answers_of(sister, inputs, own))
+    missing = int(np.isnan(table).any(1).sum())
+    if missing:
+        raise SystemExit(f"{missing} of {len(rows)} rows are held out by none of the other runs")
+    return table
+
+
+def recipe_of(config: dict) -> dict:
+    """The settings that all turns share."""
+    return {key: value for key, value in config.items() if key not in ("turn", "rows", "range", "trained_on", "encoder_weights")}
+
+
+def answers_of(run: Path, inputs: Path, rows) -> np.ndarray:
+    """[rows, shoots] answers of the run's network to three photos."""
+    network, first = load_best(run), list(range(INITIAL_IMAGES))
+    photos = Photos(inputs, rows, network.config["size"])
+    with torch.no_grad():
+        return np.array([
+            [float(network(photos.batch([(row, variant, first)])).mean()) for variant in range(VALIDATION_VARIANTS)]
+            for row in tqdm(rows, "held out", leave=False)
+        ])  # fmt: skip
+
+
+def kept(path: Path, rows, make) -> np.ndarray:
+    """[rows, shoots] labels less answers: out of the file if it is of these rows, else of what `make` answers."""
     if path.is_file():
         with open(path, newline="") as file:
             lines = list(csv.reader(file))[1:]
         if [(line[0], float(line[1])) for line in lines] == [(row.id, row.views) for row in rows]:
             return np.array([[float(row.views) - float(answer) for answer in line[2:]] for row, line in zip(rows, lines)])
-    answers = left_out_answers(run, config, source, rows, turns)
+    answers = make()
     partial = path.with_suffix(".part")
     with open(partial, "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(("row", "label", *(f"shoot_{k}" for k in range(answers.shape[1]))))
-        writer.writerows((id, row.views, *(f"{a:.3f}" for a in line)) for id, row, line in zip(ids, rows, answers))
+        writer.writerows((row.id, row.views, *(f"{a:.3f}" for a in line)) for row, line in zip(rows, answers))
     partial.rename(path)
     return np.array([[row.views] for row in rows]) - answers
 
 
-def novelty_of(network: PRVNet, source, rows, variants: int) -> novelty.Novelty:
+def novelty_of(network: PRVNet, source, rows) -> novelty.Novelty:
     """The score, fitted to the shoots of `rows`."""
     early = novelty.early_features(network.encoder)
     every, table = list(range(MAX_IMAGES)), []
+    variants = source.variants if isinstance(source, Bank) else NOVELTY_SHOOTS
     with torch.no_grad():
-        for row in rows:
+        for row in tqdm(rows, "novelty", leave=False):
             batch = source.batch([(row, variant, every) for variant in range(variants)])
             features = batch if batch.ndim == 3 else network.encode(batch)
             table.append(features[..., :early].numpy())

@@ -13,10 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
-from . import INITIAL_IMAGES, MAX_IMAGES, baseline, interval, labels, metrics, novelty_card, repeatability
+from . import INITIAL_IMAGES, MAX_IMAGES, baseline, calibrate, interval, labels, metrics, novelty_card, repeatability
 from .onnx_model import OnnxModel
+from .runs import fitted
 from .sources import Photos, all_subsets
-from .train import fitted
 
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 SHOOTS = 8
@@ -94,6 +94,24 @@ def coverage(model: OnnxModel, truth, initial, shoots) -> list[str]:
     ]
 
 
+def every_object_once(sisters: list[Path], config: dict, labels_path: Path, inputs: Path) -> str:
+    """What runs of one recipe say of all objects, each asked of those that it holds out."""
+    rows = labels.read(labels_path, inputs, config["statuses"].split(","), config["target"], config.get("sizes"))
+    errors, groups = np.abs(calibrate.sisters_residuals(sisters, config, inputs, rows)), [row.group for row in rows]
+    constant = {}
+    for sister in sisters:
+        parts = json.loads((sister / "config.json").read_text())["rows"]
+        held_out = set(parts["test"])
+        median = np.median([row.views for row in rows if row.id not in held_out])
+        constant |= {row.id: abs(row.views - median) for row in rows if row.id in held_out}
+    return (
+        f"Every object held out once, by {len(sisters)} networks of this recipe, {len(rows)} labels: L1 "
+        f"**{metrics.with_interval(errors[:, 0], groups)}** views, over random backgrounds, light and camera "
+        f"{metrics.with_interval(errors[:, 1:].mean(1), groups)}; median of the labels that each has not held out "
+        f"{metrics.with_interval([constant[row.id] for row in rows], groups)}."
+    )
+
+
 def update(card: Path, text: str):
     """Puts `text` between the marks; a card without marks gets them at its end."""
     old = card.read_text() if card.is_file() else "# Model card of PRVNet\n"
@@ -112,12 +130,15 @@ def main(argv=None):
     parser.add_argument("--inputs", type=Path, help="default: what the run was trained on")
     parser.add_argument("--compare", type=Path, help="compare.md of prvnet.compare")
     parser.add_argument("--repeats", type=Path, help="labels of the same objects measured again")
+    parser.add_argument("--sisters", type=Path, nargs="+", help="the runs of all turns: every object held out once")
     parser.add_argument("--card", type=Path, help="the file to update; without it the figures are only printed")
     args = parser.parse_args(argv)
     config = json.loads((args.run / "config.json").read_text())
     where = json.loads((args.run / "where.json").read_text())
     labels_path, inputs = args.labels or Path(where["labels"]), args.inputs or Path(where["inputs"])
     text = figures(OnnxModel(args.model), config, labels_path, inputs)
+    if args.sisters:
+        text += "\n\n" + every_object_once(args.sisters, config, labels_path, inputs)
     if args.repeats and args.repeats.is_file():
         text += "\n\n" + "\n".join(repeatability.lines(labels_path, args.repeats))
     if args.compare and args.compare.is_file():

@@ -20,10 +20,11 @@ import torch
 
 from . import INITIAL_IMAGES, baseline, labels, metrics, pretrain, recipes
 from .latency import of_network
+from .runs import load_best
 from .sources import Photos
 from .splits import TURNS, split
 from .train import arguments as train_arguments
-from .train import load_best, train
+from .train import train
 
 COLUMNS = ("recipe", "parameters", "validation_l1", "validation_constant_l1", "held_out_l1", "held_out_low",
            "held_out_high", "held_out_rows", "train_cpu_s", "latency_1_thread_ms", "latency_2_threads_ms",

@@ -17,8 +17,8 @@ import torch
 from . import CROP_HALF_SIZE_M, FORMAT, INITIAL_IMAGES, MAX_IMAGES, calibrate, interval, labels, metrics
 from .model import Exported, twice_if_single
 from .onnx_model import OnnxModel
+from .runs import fitted, load_best
 from .sources import Photos
-from .train import fitted, load_best
 
 TOLERANCE = 1e-4
 # Of the novelty, relatively: it is a difference of two sums of squares.
@@ -71,6 +71,8 @@ def main(argv=None):
     parser.add_argument("--inputs", type=Path, help="default: what the run was trained on")
     parser.add_argument("--bank", type=Path, help="folder for the frozen encoder's features (default: the run's)")
     parser.add_argument("--turns", type=int, default=calibrate.TURNS, help="networks trained for the interval")
+    parser.add_argument("--sisters", type=Path, nargs="+",
+        help="runs of the other turns, to take the interval from what each of them holds out instead")  # fmt: skip
     parser.add_argument("--threads", type=int, default=1, help="for training those; heads are too small to share")
     args = parser.parse_args(argv)
     torch.set_num_threads(args.threads)
@@ -91,13 +93,16 @@ def main(argv=None):
     validation = [rows[id] for id in config["rows"]["validation"]]
     known = train + validation
     bank = args.bank or Path(where.get("bank", args.inputs / ".features"))
-    source = calibrate.source_of(config, args.inputs, bank, known, network)
+    source, features = calibrate.sources_of(args.run, config, args.inputs, bank, known)
     begin = time.process_time()
-    residuals = calibrate.residuals(args.run, config, source, known, args.turns)
+    if args.sisters:
+        residuals = calibrate.sisters_residuals(args.sisters, config, args.inputs, known)
+    else:
+        residuals = calibrate.residuals(args.run, config, source, features, known, args.turns)
     low, high = interval.offsets(residuals)
     print(f"{len(known)} objects' rows left out in turn: L1 {np.abs(residuals).mean():.2f} views, "
           f"{100 * interval.LEVEL:.0f} % interval {low:+.1f} to {high:+.1f}")  # fmt: skip
-    novelty = calibrate.novelty_of(network, source, known, config["variants"]).eval()
+    novelty = calibrate.novelty_of(network, source, known).eval()
     print(f"calibrated in {time.process_time() - begin:.0f} CPU seconds")
 
     proto = to_onnx(network, novelty)

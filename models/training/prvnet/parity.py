@@ -26,7 +26,7 @@ from .crop import Camera, crop
 from .export import TOLERANCE
 from .onnx_model import OnnxModel
 from .sources import Photos, planes
-from .train import load_best
+from .runs import load_best
 
 # (width, height), intrinsics: a D435's colour camera, a webcam with distortion, a phone, a small one.
 CAMERAS = (

@@ -21,9 +21,9 @@ from tqdm import tqdm
 
 from . import MAX_IMAGES, augment, encoder_weights, encoders, labels
 from .masked import PATCH, MaskedAutoencoder, random_mask
+from .runs import save
 from .sources import planes
 from .splits import split
-from .train import save
 
 # Share of a crop's side that a training picture shows.
 SHOWN = (0.5, 1.0)

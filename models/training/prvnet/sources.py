@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -29,23 +30,37 @@ def shoot_seed(row, variant: int) -> list[int]:
     return [variant, int.from_bytes(hashlib.sha256(row.id.encode()).digest()[:8], "big")]
 
 
+# Shoots below this number are of the crops themselves: what networks are judged and chosen by.
+PLAIN_VARIANTS = 64
+
+
 class Photos:
-    """Variant 0 of a row is its crops on white, every other number a random shoot of them."""
+    """Variant 0 of a row is its crops on white, every other number a random shoot of them.
 
-    def __init__(self, inputs: Path, rows, size: int):
+    From PLAIN_VARIANTS on a shoot may be of the object's mirror image, or of the object as the folders `turned` have it
+    (`prv inputs --yaw-deg`, the same rows): it needs as many views.
+    """
+
+    def __init__(self, inputs: Path, rows, size: int, turned: Sequence[Path] = ()):
         self.size = size
-        self.crops = {row.id: resized(labels.crops(inputs, row), size) for row in tqdm(rows, "crops", leave=False, disable=len(rows) == 1)}
+        bar = tqdm(rows, "crops", leave=False, disable=len(rows) == 1)
+        self.crops = {row.id: [resized(labels.crops(folder, row), size) for folder in (inputs, *turned)] for row in bar}
 
-    def get(self, row, variant: int) -> torch.Tensor:
-        """[5, 3, S, S] in 0..1."""
-        crops = self.crops[row.id]
+    def get(self, row, variant: int, images=slice(None)) -> torch.Tensor:
+        """[5, 3, S, S] in 0..1, or those of the photos named."""
+        sides = self.crops[row.id]
+        if variant < PLAIN_VARIANTS:
+            crops = sides[0][images]
+        else:
+            which, mirrored = variant // 2 % len(sides), variant % 2
+            crops = sides[which][images, :, :: -1 if mirrored else 1]
         if variant == 0:
             return planes(np.stack([augment.on_white(crop) for crop in crops]))
         return planes(augment.shoot(crops, np.random.default_rng(shoot_seed(row, variant))))
 
     def batch(self, items) -> torch.Tensor:
         """(row, variant, images) triples to [B, n, 3, S, S]."""
-        return torch.stack([self.get(row, variant)[images] for row, variant, images in items])
+        return torch.stack([self.get(row, variant, images) for row, variant, images in items])
 
 
 class Bank:

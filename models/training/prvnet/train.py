@@ -7,25 +7,19 @@ starts from `prvnet.pretrain`'s weights; log.csv and last.pt (to resume) where t
 """
 
 import argparse
-import csv
 import json
-import math
 import time
 from pathlib import Path
 
 import numpy as np
 import torch
-from tqdm import tqdm
 
-from . import INITIAL_IMAGES, MAX_IMAGES, PAPER_RANGE, encoder_weights, encoders, labels, metrics, ridge
-from .model import HEADS, PRVNet
+from . import PAPER_RANGE, encoder_weights, encoders, labels, metrics, ridge
+from .epochs import by_epochs, evaluate
+from .model import HEADS
+from .runs import BEST, LAST, fitted, save, solved, start, trained_state, tuned
 from .sources import Bank, Photos
 from .splits import TURNS, split
-
-VALIDATION_VARIANTS = 6
-
-# Errors, views, below which the Huber loss is quadratic: about what two labels of one object differ by.
-HUBER_DELTA = 2.0
 
 # `--paper`: the paper's network, but for ImageNet weights, which no package index has.
 PAPER = {"encoder": "convnextv2_tiny", "freeze": False, "head": "paper", "heads": 1, "levels": "last", "images": "3",
@@ -42,7 +36,8 @@ def arguments(argv=None):
     add("--encoder", choices=encoders.NAMES, default="efficientnet_lite0")
     add("--encoder-weights", type=Path, help="encoder.pt of `prvnet.pretrain` to start from")
     add("--levels", choices=("last", "all"), default="all", help="pool the encoder's output or every stage's")
-    add("--head", choices=tuple(HEADS), help="default: ridge on a frozen encoder, else small")
+    add("--head", choices=tuple(HEADS), help="default: ridge on a frozen encoder, else small; a ridge is solved, "
+        "and with --no-freeze the whole network is tuned from there")  # fmt: skip
     add("--heads", type=int, help="heads trained side by side and averaged (default 5; a ridge has one)")
     add("--size", type=int, help="side of the input images, pixels (default: what the encoder was made for)")
     add("--images", choices=("1-5", "3"), default="1-5", help="initial images of a training sample")
@@ -53,10 +48,12 @@ def arguments(argv=None):
     add("--freeze", action=argparse.BooleanOptionalAction, default=None,
         help="leave the encoder as it is (default for encoders with ImageNet weights)")  # fmt: skip
     add("--variants", type=int, default=16, help="random shoots of each object with a frozen encoder")
+    add("--turned", type=Path, nargs="+", default=[],
+        help="folders of `prv inputs --yaw-deg` of the same labels, to tune by as well")  # fmt: skip
     add("--bank", type=Path, help="folder for the frozen encoder's features (default: beside the inputs)")
     add("--epochs", type=int, help="passes over the objects (default 150 frozen, 60 otherwise)")
     add("--batch", type=int, default=64)
-    add("--lr", type=float, help="learning rate of the heads at the given batch (default 5e-4 frozen, else 10 x encoder)")
+    add("--lr", type=float, help="learning rate of the heads at the given batch (default 5e-4 frozen, else 10 x the encoder's, of a ridge 0.1 x)")
     add("--encoder-lr", type=float, default=1.5e-4, help="of the encoder, times batch / 256")
     add("--weight-decay", type=float, default=0.05)
     add("--loss", choices=("l1", "huber"), default="l1")
@@ -72,21 +69,23 @@ def arguments(argv=None):
     has_weights = args.encoder in encoders.EFFICIENTNET_LITE
     if args.freeze is None:
         args.freeze = has_weights
-    if args.freeze and not has_weights and args.encoder_weights is None:
-        parser.error(f"--freeze: {args.encoder} has no ImageNet weights; give --encoder-weights of prvnet.pretrain")
     args.head = args.head or ("ridge" if args.freeze else "small")
-    if args.head == "ridge" and not args.freeze:
-        parser.error("--head ridge: it is solved on the features of a frozen encoder; give --freeze")
+    if (args.freeze or args.head == "ridge") and not has_weights and args.encoder_weights is None:
+        option = "--freeze" if args.freeze else "--head ridge"
+        parser.error(f"{option}: {args.encoder} has no ImageNet weights; give --encoder-weights of prvnet.pretrain")
     if args.head == "ridge" and args.heads not in (None, 1):
         parser.error("--heads: a ridge has one")
-    if args.head == "ridge" and (args.loss != "l1" or args.weight_by_sigma):
+    if args.freeze and args.turned:
+        parser.error("--turned: a frozen encoder's features are of the crops themselves; give --no-freeze")
+    if solved(vars(args)) and (args.loss != "l1" or args.weight_by_sigma):
         parser.error("--loss, --weight-by-sigma: a ridge is solved, not trained; give --head small")
     args.heads = args.heads or (1 if args.head == "ridge" else 5)
     args.size = args.size or encoders.native_size(args.encoder)
     args.epochs = args.epochs or (150 if args.freeze else 60)
     args.bank = args.bank or args.inputs / ".features"
     if args.lr is None:
-        args.lr = 5e-4 if args.freeze else 10 * args.encoder_lr * args.batch / 256
+        times = 0.1 if args.head == "ridge" else 10
+        args.lr = 5e-4 if args.freeze else times * args.encoder_lr * args.batch / 256
     return args
 
 
@@ -94,11 +93,13 @@ def configuration(args, train, validation, test, weights: dict | None) -> dict:
     """Everything that fixes the run's result; `weights` is what `encoder_weights.read` gives."""
     chosen = ("encoder", "levels", "head", "heads", "size", "images", "freeze", "variants", "turn", "seed", "statuses", "target")
     of_epochs = ("epochs", "batch", "lr", "encoder_lr", "weight_decay", "loss", "weight_by_sigma")
-    settings = {key: getattr(args, key) for key in chosen + (() if args.head == "ridge" else of_epochs)}
+    settings = {key: getattr(args, key) for key in chosen + (() if solved(vars(args)) else of_epochs)}
     views = [row.views for row in fitted(settings, train, validation)]
     low, high = PAPER_RANGE if args.range == "paper" else (int(min(views)), int(max(views)))
     if args.sizes is not None:
         settings["sizes"] = args.sizes
+    if args.turned:
+        settings["turned"] = len(args.turned)
     return {
         **settings,
         "encoder_weights": weights and weights["fingerprint"],
@@ -108,100 +109,8 @@ def configuration(args, train, validation, test, weights: dict | None) -> dict:
     }
 
 
-def fitted(config: dict, train, validation) -> list:
-    """The rows that a network's weights come from. A ridge has no epoch to choose: once its error on the validation rows
-    is known it is fitted to them too."""
-    return train + validation if config["head"] == "ridge" else train
-
-
 def ids(rows):
     return [row.id for row in rows]
-
-
-def images_of(rng, mode) -> list[int]:
-    if mode == "3":
-        return list(range(INITIAL_IMAGES))
-    return sorted(rng.permutation(MAX_IMAGES)[: rng.integers(1, MAX_IMAGES + 1)].tolist())
-
-
-def evaluate(network, source, rows, device, variants=range(VALIDATION_VARIANTS)) -> float:
-    """L1 of the mean of the heads on the three initial images, over variants (0 is the clean one)."""
-    network.eval()
-    errors, first = [], list(range(INITIAL_IMAGES))
-    with torch.no_grad():
-        for variant in variants:
-            for start in range(0, len(rows), 64):
-                part = rows[start : start + 64]
-                answer = network(source.batch([(row, variant, first) for row in part]).to(device)).mean(1).cpu()
-                errors.extend(np.abs(answer.numpy() - [row.views for row in part]))
-    return float(np.mean(errors))
-
-
-def epoch_of(network, source, rows, args, epoch, optimizer, scheduler, device) -> float:
-    """One pass; all randomness comes from the seed and the epoch, so that a resumed run is the same run."""
-    rng = np.random.default_rng([args.seed, epoch])
-    torch.manual_seed(args.seed * 100003 + epoch)
-    network.train()
-    if args.freeze:
-        network.encoder.eval()
-    low, high = network.low, network.high
-    order, total = rng.permutation(len(rows)), 0.0
-    # A last batch of one row would break batch normalisation: it joins the one before.
-    starts = [s for s in range(0, len(order), args.batch) if len(order) - s > 1 or s == 0]
-    for index, start in enumerate(starts):
-        end = len(order) if index + 1 == len(starts) else start + args.batch
-        part = [rows[i] for i in order[start:end]]
-        count = len(images_of(rng, args.images))
-        items = []
-        for row in part:
-            chosen = list(range(INITIAL_IMAGES))
-            if args.images != "3":
-                chosen = rng.permutation(MAX_IMAGES)[:count].tolist()
-            items.append((row, int(rng.integers(0, args.variants if args.freeze else 2**31)), chosen))
-        target = torch.tensor([row.views for row in part], dtype=torch.float32, device=device)
-        weight = torch.ones_like(target)
-        if args.weight_by_sigma:
-            weight = 1 / (3 + torch.tensor([row.sigma for row in part], dtype=torch.float32, device=device))
-        answers = network(source.batch(items).to(device))
-        errors = (answers - target.clamp(low, high).unsqueeze(1)).abs()
-        losses = errors
-        if args.loss == "huber":
-            losses = torch.where(errors < HUBER_DELTA, errors**2 / (2 * HUBER_DELTA), errors - HUBER_DELTA / 2)
-        loss = (losses.mean(1) * weight).sum() / weight.sum()
-        optimizer.zero_grad(set_to_none=True)
-        loss.backward()
-        torch.nn.utils.clip_grad_norm_(network.parameters(), 20.0)
-        optimizer.step()
-        scheduler.step()
-        total += float(errors.detach().mean(1).sum())
-    return total / len(rows)
-
-
-def optimizer_of(network, args, count):
-    """Optimiser and learning rates for `count` rows."""
-    groups = [{"params": network.heads.parameters(), "lr": args.lr}]
-    if not args.freeze:
-        groups.append({"params": network.encoder.parameters(), "lr": args.encoder_lr * args.batch / 256})
-    optimizer = torch.optim.AdamW(groups, betas=(0.9, 0.95), weight_decay=args.weight_decay)
-    steps = max(1, -(-count // args.batch)) * args.epochs
-    warm = max(1, steps // 20)
-    scheduler = torch.optim.lr_scheduler.LambdaLR(
-        optimizer, lambda step: min((step + 1) / warm, 0.5 + 0.5 * math.cos(math.pi * min(1.0, step / steps)))
-    )
-    return optimizer, scheduler
-
-
-def trained_state(network, config) -> dict:
-    """What is kept of a network: a frozen encoder is what it started from, so only what was trained."""
-    return (network.heads if config["freeze"] else network).state_dict()
-
-
-def start(config: dict, run: Path) -> PRVNet:
-    """The network of `config` before its first step, with the run's own encoder.pt where it has one."""
-    network = PRVNet(config)
-    if config.get("encoder_weights"):
-        encoder_weights.load(network.encoder, config, run)
-    return network
 
 
 def train(args) -> dict:
@@ -222,7 +131,8 @@ def train(args) -> dict:
         raise SystemExit(f"{args.out} holds a run with other settings or labels; give another --out")
     known.write_text(json.dumps(config, indent=1))
     # Beside the settings, since files may move without changing the run.
-    where = {"labels": str(args.labels.resolve()), "inputs": str(args.inputs.resolve()), "bank": str(args.bank.resolve())}
+    where = {"labels": str(args.labels.resolve()), "inputs": str(args.inputs.resolve()), "bank": str(args.bank.resolve()),
+             "turned": [str(folder.resolve()) for folder in args.turned]}  # fmt: skip
     (args.out / "where.json").write_text(json.dumps(where))
     if weights:
         save(weights, args.out / encoder_weights.FILE)
@@ -234,80 +144,42 @@ def train(args) -> dict:
     device = torch.device(args.device)
     network = start(config, args.out).to(device)
     median = float(np.median([row.views for row in train_rows]))
+    known_rows = train_rows + validation_rows
+    bank = None
+    if args.freeze or tuned(config):
+        bank = Bank(args.bank, args.inputs, known_rows, network, args.variants, device)
     if args.freeze:
         network.encoder.requires_grad_(False)
-        source = Bank(args.bank, args.inputs, train_rows + validation_rows, network, args.variants, device)
+        source = bank
         torch.set_num_threads(1)  # the heads' matrices are too small to share
     else:
-        source = Photos(args.inputs, train_rows + validation_rows, args.size)
+        source = Photos(args.inputs, known_rows, args.size, args.turned)
     constant = metrics.l1(median, [row.views for row in validation_rows])
     print(f"{len(train_rows)} rows to train on, {len(validation_rows)} to choose by, {len(test_rows)} held out; "
           f"labels {config['range']}, validation L1 of the training median {constant:.2f}")  # fmt: skip
-    by = solve if args.head == "ridge" else by_epochs
-    by(network, source, train_rows, validation_rows, args, config, device)
+    if solved(config):
+        solve(network, source, train_rows, validation_rows, args, config, device)
+        return config
+    # Who goes on has his heads in last.pt.
+    if not (args.out / LAST).is_file():
+        if tuned(config):
+            ridge.fit(network, bank, train_rows, config)
+        else:
+            network.start_at(median)
+    by_epochs(network, source, train_rows, validation_rows, args, config, device)
     return config
 
 
 def solve(network, source, train_rows, validation_rows, args, config, device):
     """A ridge's weights, fitted twice: for its error on the validation rows, and for good."""
-    if (args.out / "best.pt").is_file():
+    if (args.out / BEST).is_file():
         return
     begin = time.process_time()
     ridge.fit(network, source, train_rows, config)
     validation = evaluate(network, source, validation_rows, device)
     ridge.fit(network, source, fitted(config, train_rows, validation_rows), config)
     print(f"solved in {time.process_time() - begin:.0f} CPU seconds, validation L1 {validation:.2f}")
-    save({"weights": trained_state(network, config), "config": config, "epoch": 1, "validation_l1": validation}, args.out / "best.pt")
-
-
-def by_epochs(network, source, train_rows, validation_rows, args, config, device):
-    """Gradient descent; keeps the network of the epoch with the least validation L1."""
-    network.start_at(float(np.median([row.views for row in train_rows])))
-    optimizer, scheduler = optimizer_of(network, args, len(train_rows))
-    load = network.heads.load_state_dict if args.freeze else network.load_state_dict
-
-    last, best, first_epoch = args.out / "last.pt", float("inf"), 0
-    if last.is_file():
-        state = torch.load(last, map_location=device, weights_only=True)
-        load(state["weights"])
-        optimizer.load_state_dict(state["optimizer"])
-        scheduler.load_state_dict(state["scheduler"])
-        best, first_epoch = state["best"], state["epoch"]
-
-    log = args.out / "log.csv"
-    if first_epoch == 0 or not log.is_file():
-        log.write_text("epoch,train_l1,validation_l1,best,cpu_s\n")
-    bar = tqdm(range(first_epoch, args.epochs), initial=first_epoch, total=args.epochs, unit="epoch")
-    for epoch in bar:
-        begin = time.process_time()
-        error = epoch_of(network, source, train_rows, args, epoch, optimizer, scheduler, device)
-        validation = evaluate(network, source, validation_rows, device)
-        if validation < best:
-            best = validation
-            save({"weights": trained_state(network, config), "config": config, "epoch": epoch + 1, "validation_l1": best}, args.out / "best.pt")
-        with open(log, "a", newline="") as file:
-            cpu_s = time.process_time() - begin
-            csv.writer(file).writerow([epoch + 1, f"{error:.4f}", f"{validation:.4f}", f"{best:.4f}", f"{cpu_s:.2f}"])
-        # Frozen epochs take less time than writing the state does.
-        if not args.freeze or (epoch + 1) % 10 == 0 or epoch + 1 == args.epochs:
-            state = {"optimizer": optimizer.state_dict(), "scheduler": scheduler.state_dict()}
-            save({"weights": trained_state(network, config), **state, "best": best, "epoch": epoch + 1}, last)
-        bar.set_postfix(train=f"{error:.2f}", validation=f"{validation:.2f}", best=f"{best:.2f}")
-
-
-def save(state, path: Path):
-    partial = path.with_suffix(".part")
-    torch.save(state, partial)
-    partial.rename(path)
-
-
-def load_best(run: Path, device="cpu") -> PRVNet:
-    """The network of a run's best.pt, ready to be used."""
-    state = torch.load(run / "best.pt", map_location=device, weights_only=True)
-    config = state["config"]
-    network = start(config, run) if config["freeze"] else PRVNet(config, pretrained=False)
-    (network.heads if config["freeze"] else network).load_state_dict(state["weights"])
-    return network.to(device).eval()
+    save({"weights": trained_state(network, config), "config": config, "epoch": 1, "validation_l1": validation}, args.out / BEST)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ pytestmark = pytest.mark.torch
 
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic
-from prvnet import encoder_weights, encoders, labels, masked, pretrain, splits, train
+from prvnet import encoder_weights, encoders, labels, masked, pretrain, runs, splits, train
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +98,7 @@ def test_a_run_starts_from_the_weights_and_keeps_them_by_itself(data, weights, t
     pretrained = encoder_weights.read(weights)
     assert config["encoder_weights"] == pretrained["fingerprint"] == json.loads((run / "config.json").read_text())["encoder_weights"]
     # Nothing but the run's folder is needed from here on.
-    trained = train.load_best(run).encoder.net.state_dict()
+    trained = runs.load_best(run).encoder.net.state_dict()
     apart = max(float((trained[key] - value).abs().max()) for key, value in pretrained["weights"].items())
     assert apart == 0 if freeze else 0 < apart < 1e-3
 

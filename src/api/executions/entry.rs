@@ -7,12 +7,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use serde_json::{Value, json};
 use tokio::sync::watch;
 
+use super::queue::Waiting;
 use crate::api::store::{ExecutionRecord, ExecutionStore};
 use crate::api::wire::{ExecutionJson, ExecutionStateJson};
 
 /// A run.
 pub struct Entry {
     record: Mutex<ExecutionRecord>,
+    /// What it holds until its turn comes or it is cancelled.
+    waiting: Mutex<Option<Waiting>>,
     /// Held while a change goes to the store, so that changes come one after the other.
     writing: Mutex<()>,
     changes: watch::Sender<u64>,
@@ -25,9 +28,10 @@ fn is_over(state: ExecutionStateJson) -> bool {
 }
 
 impl Entry {
-    pub(super) fn new(record: ExecutionRecord) -> Self {
+    pub(super) fn new(record: ExecutionRecord, waiting: Option<Waiting>) -> Self {
         Self {
             record: Mutex::new(record),
+            waiting: Mutex::new(waiting),
             writing: Mutex::new(()),
             changes: watch::Sender::new(0),
             cancelled: AtomicBool::new(false),
@@ -136,10 +140,17 @@ impl Entry {
         let goes_on = !self.is_over();
         if self.execution().state == ExecutionStateJson::Queued {
             self.go(store, ExecutionStateJson::Cancelled, None);
+            // Others may wait in its place.
+            drop(self.take_waiting());
         } else if goes_on {
             self.cancelled.store(true, Ordering::Relaxed);
         }
         goes_on
+    }
+
+    /// What it has held while it waited; `None` for a run that is over, or whose turn has come before.
+    pub(super) fn take_waiting(&self) -> Option<Waiting> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
     /// Asks the run to stop because the service does; one that waits never starts in this life of it.

@@ -31,7 +31,7 @@ pub struct Executions {
     store: ExecutionStore,
     sources: Sources,
     entries: Arc<RwLock<BTreeMap<String, Arc<Entry>>>>,
-    queue: UnboundedSender<Waiting>,
+    queue: UnboundedSender<Arc<Entry>>,
     arms: Arc<Semaphore>,
     places: Arc<Semaphore>,
 }
@@ -64,10 +64,12 @@ impl Executions {
     /// Takes up a run of an earlier life of the service.
     fn take_up(&self, record: ExecutionRecord) {
         let (id, state) = (record.execution.id.clone(), record.execution.state);
-        let entry = Arc::new(Entry::new(record));
-        if state == ExecutionStateJson::Queued && self.store.has_request(&id) {
-            let place = self.places.clone().try_acquire_owned().ok();
-            self.enqueue(Waiting { entry: entry.clone(), job: None, place });
+        let waits = state == ExecutionStateJson::Queued && self.store.has_request(&id);
+        let waiting =
+            waits.then(|| Waiting { job: None, place: self.places.clone().try_acquire_owned().ok() });
+        let entry = Arc::new(Entry::new(record, waiting));
+        if waits {
+            self.enqueue(entry.clone());
         } else {
             let why = if state == ExecutionStateJson::Queued { NOT_STORED } else { ENDED };
             if entry.advance(&self.store, ExecutionStateJson::Interrupted, Some(why.to_owned())) {
@@ -77,9 +79,9 @@ impl Executions {
         self.entries.write().unwrap_or_else(PoisonError::into_inner).insert(id, entry);
     }
 
-    fn enqueue(&self, waiting: Waiting) {
+    fn enqueue(&self, entry: Arc<Entry>) {
         // Nobody hands out arms any more where the service is stopping: the run waits for its next life.
-        let _ = self.queue.send(waiting);
+        let _ = self.queue.send(entry);
     }
 
     /// The run with this id.
@@ -118,9 +120,10 @@ impl Executions {
         // The request first: a run that is found waiting can be taken up.
         self.store.save_request(&id, json)?;
         self.store.save(&record)?;
-        let entry = Arc::new(Entry::new(record));
+        let waiting = Waiting { job: Some(Box::new(job)), place: Some(place) };
+        let entry = Arc::new(Entry::new(record, Some(waiting)));
         self.entries.write().unwrap_or_else(PoisonError::into_inner).insert(id, entry.clone());
-        self.enqueue(Waiting { entry: entry.clone(), job: Some(Box::new(job)), place: Some(place) });
+        self.enqueue(entry.clone());
         Ok(entry)
     }
 

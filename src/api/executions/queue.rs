@@ -11,9 +11,8 @@ use crate::api::problem::Problem;
 use crate::api::store::ExecutionStore;
 use crate::api::wire::ExecutionStateJson;
 
-/// A run that waits.
+/// What a run holds while it waits.
 pub(super) struct Waiting {
-    pub(super) entry: Arc<Entry>,
     /// `None` for a run of an earlier life of the service: made from what is stored when its turn comes.
     pub(super) job: Option<Box<Job>>,
     /// Its place among the runs that are taken on; one that was taken on before has it anyway.
@@ -22,16 +21,17 @@ pub(super) struct Waiting {
 
 /// Gives each of `waiting` an arm in turn; ends when `arms` are closed.
 pub(super) async fn hand_out_arms(
-    mut waiting: UnboundedReceiver<Waiting>,
+    mut waiting: UnboundedReceiver<Arc<Entry>>,
     arms: Arc<Semaphore>,
     store: ExecutionStore,
     sources: Sources,
 ) {
-    while let Some(next) = waiting.recv().await {
+    while let Some(entry) = waiting.recv().await {
         let Ok(arm) = arms.clone().acquire_owned().await else { return };
         let (store, sources) = (store.clone(), sources.clone());
         tokio::spawn(async move {
-            let Waiting { entry, job, place } = next;
+            // Cancelled while it waited.
+            let Some(Waiting { job, place }) = entry.take_waiting() else { return };
             let (running, kept) = (entry.clone(), store.clone());
             let ended = tokio::task::spawn_blocking(move || {
                 let _held = (arm, place);
@@ -48,7 +48,7 @@ pub(super) async fn hand_out_arms(
 
 fn run(entry: &Entry, job: Option<Box<Job>>, store: &ExecutionStore, sources: &Sources) {
     let id = entry.execution().id;
-    // Cancelled while it waited, or the service is ending.
+    // Cancelled just now, or the service is ending.
     if !entry.may_start() {
         return;
     }
