@@ -14,9 +14,9 @@ import torch
 from tqdm import tqdm
 
 from . import INITIAL_IMAGES, MAX_IMAGES, novelty, ridge
-from .epochs import VALIDATION_VARIANTS, epoch_of, evaluate, optimizer_of
+from .epochs import VALIDATION_VARIANTS, Descent, evaluate
 from .model import PRVNet
-from .runs import fitted, load_best, solved, start, trained_state, tuned
+from .runs import fitted, load_best, solved, start, trained, tuned
 from .sources import Bank, Photos
 from .splits import FOLDS, fold_of
 
@@ -27,12 +27,22 @@ PATIENCE = 40
 NOVELTY_SHOOTS = 2
 
 
-def sources_of(run: Path, config: dict, inputs: Path, bank: Path, rows) -> tuple:
-    """What the recipe trains from, and the features that a ridge is solved on; None where it takes no such thing."""
-    features = None
-    if config["freeze"] or tuned(config):
-        features = Bank(bank, inputs, rows, start(config, run), config["variants"], torch.device("cpu"))
-    return features if config["freeze"] else Photos(inputs, rows, config["size"]), features
+def source_of(run: Path, config: dict, inputs: Path, bank: Path, rows):
+    """What the recipe trains from."""
+    return features_of(run, config, inputs, bank, rows) if config["freeze"] else Photos(inputs, rows, config["size"])
+
+
+def features_of(run: Path, config: dict, inputs: Path, bank: Path, rows) -> Bank:
+    """Features of the encoder as the run started with it, which a ridge is solved on."""
+    return Bank(bank, inputs, rows, start(config, run), config["variants"], torch.device("cpu"))
+
+
+def answers_to_shoots(network: PRVNet, source, row) -> np.ndarray:
+    """[shoots] answers to three photos of a row."""
+    network.eval()
+    with torch.no_grad():
+        items = [(row, variant, list(range(INITIAL_IMAGES))) for variant in range(VALIDATION_VARIANTS)]
+        return network(source.batch(items)).mean(1).numpy()
 
 
 def left_out_answers(run: Path, config: dict, source, features, rows, turns: int = TURNS) -> np.ndarray:
@@ -42,7 +52,6 @@ def left_out_answers(run: Path, config: dict, source, features, rows, turns: int
     """
     answers = np.full((len(rows), VALIDATION_VARIANTS), np.nan)
     fold = np.array([fold_of("interval " + row.group) for row in rows])
-    first = list(range(INITIAL_IMAGES))
     with tqdm(unit="epoch", desc="left out") as bar:
         for turn in range(turns):
             tested = fold * turns // FOLDS == turn
@@ -68,29 +77,26 @@ def left_out_answers(run: Path, config: dict, source, features, rows, turns: int
             else:
                 network.encoder.requires_grad_(not config["freeze"])
                 train_until_best(network, source, known, validation or known, settings, bar)
-            network.eval()
-            with torch.no_grad():
-                for index in out:
-                    items = [(rows[index], variant, first) for variant in range(VALIDATION_VARIANTS)]
-                    answers[index] = network(source.batch(items)).mean(1).numpy()
+            for index in out:
+                answers[index] = answers_to_shoots(network, source, rows[index])
     return answers
 
 
 def train_until_best(network, source, known, validation, settings: dict, bar):
     """Epochs as in a run, until none has been better on `validation` for a while; leaves the best one's weights."""
-    args, device = argparse.Namespace(**settings), torch.device("cpu")
-    optimizer, scheduler = optimizer_of(network, args, len(known))
+    device = torch.device("cpu")
+    descent = Descent(network, argparse.Namespace(**settings), len(known))
     best, best_epoch, kept = math.inf, 0, None
     for epoch in range(settings["epochs"]):
-        epoch_of(network, source, known, args, epoch, optimizer, scheduler, device)
-        error = evaluate(network, source, validation, device)
+        descent.epoch(source, known, epoch, device)
+        error = evaluate(descent.result, source, validation, device)
         if error < best:
             best, best_epoch = error, epoch
-            kept = {key: value.clone() for key, value in trained_state(network, settings).items()}
+            kept = {key: value.clone() for key, value in trained(descent.result, settings).state_dict().items()}
         bar.update()
         if epoch - best_epoch >= PATIENCE:
             break
-    (network.heads if settings["freeze"] else network).load_state_dict(kept)
+    trained(network, settings).load_state_dict(kept)
 
 
 def residuals(run: Path, config: dict, source, features, rows, turns: int = TURNS) -> np.ndarray:
@@ -127,13 +133,9 @@ def recipe_of(config: dict) -> dict:
 
 def answers_of(run: Path, inputs: Path, rows) -> np.ndarray:
     """[rows, shoots] answers of the run's network to three photos."""
-    network, first = load_best(run), list(range(INITIAL_IMAGES))
+    network = load_best(run)
     photos = Photos(inputs, rows, network.config["size"])
-    with torch.no_grad():
-        return np.array([
-            [float(network(photos.batch([(row, variant, first)])).mean()) for variant in range(VALIDATION_VARIANTS)]
-            for row in tqdm(rows, "held out", leave=False)
-        ])  # fmt: skip
+    return np.array([answers_to_shoots(network, photos, row) for row in tqdm(rows, "held out", leave=False)])
 
 
 def kept(path: Path, rows, make) -> np.ndarray:

@@ -93,11 +93,12 @@ def main(argv=None):
     validation = [rows[id] for id in config["rows"]["validation"]]
     known = train + validation
     bank = args.bank or Path(where.get("bank", args.inputs / ".features"))
-    source, features = calibrate.sources_of(args.run, config, args.inputs, bank, known)
+    source = calibrate.source_of(args.run, config, args.inputs, bank, known)
     begin = time.process_time()
     if args.sisters:
         residuals = calibrate.sisters_residuals(args.sisters, config, args.inputs, known)
     else:
+        features = calibrate.features_of(args.run, config, args.inputs, bank, known) if config["head"] == "ridge" else None
         residuals = calibrate.residuals(args.run, config, source, features, known, args.turns)
     low, high = interval.offsets(residuals)
     print(f"{len(known)} objects' rows left out in turn: L1 {np.abs(residuals).mean():.2f} views, "

@@ -25,8 +25,8 @@ from .augment import on_white
 from .crop import Camera, crop
 from .export import TOLERANCE
 from .onnx_model import OnnxModel
-from .sources import Photos, planes
 from .runs import load_best
+from .sources import Photos, planes
 
 # (width, height), intrinsics: a D435's colour camera, a webcam with distortion, a phone, a small one.
 CAMERAS = (

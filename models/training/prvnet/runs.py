@@ -26,9 +26,9 @@ def fitted(config: dict, train, validation) -> list:
     return train + validation if solved(config) else train
 
 
-def trained_state(network, config) -> dict:
-    """What is kept of a network: a frozen encoder is what it started from, so only what was trained."""
-    return (network.heads if config["freeze"] else network).state_dict()
+def trained(network, config: dict):
+    """The part of a network that its run changes, and keeps: a frozen encoder stays what it started from."""
+    return network.heads if config["freeze"] else network
 
 
 def start(config: dict, run: Path) -> PRVNet:
@@ -50,5 +50,5 @@ def load_best(run: Path, device="cpu") -> PRVNet:
     state = torch.load(run / BEST, map_location=device, weights_only=True)
     config = state["config"]
     network = start(config, run) if config["freeze"] else PRVNet(config, pretrained=False)
-    (network.heads if config["freeze"] else network).load_state_dict(state["weights"])
+    trained(network, config).load_state_dict(state["weights"])
     return network.to(device).eval()

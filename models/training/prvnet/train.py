@@ -17,7 +17,7 @@ import torch
 from . import PAPER_RANGE, encoder_weights, encoders, labels, metrics, ridge
 from .epochs import by_epochs, evaluate
 from .model import HEADS
-from .runs import BEST, LAST, fitted, save, solved, start, trained_state, tuned
+from .runs import BEST, LAST, fitted, save, solved, start, trained, tuned
 from .sources import Bank, Photos
 from .splits import TURNS, split
 
@@ -56,6 +56,8 @@ def arguments(argv=None):
     add("--lr", type=float, help="learning rate of the heads at the given batch (default 5e-4 frozen, else 10 x the encoder's, of a ridge 0.1 x)")
     add("--encoder-lr", type=float, default=1.5e-4, help="of the encoder, times batch / 256")
     add("--weight-decay", type=float, default=0.05)
+    add("--averaging", type=float, default=0.0,
+        help="keep the running mean of the weights, of which each step leaves so much; 0: the weights themselves")  # fmt: skip
     add("--loss", choices=("l1", "huber"), default="l1")
     add("--weight-by-sigma", action="store_true", help="count uncertain labels less")
     add("--turn", type=int, choices=range(TURNS), default=0, help="which folds are held out")
@@ -75,6 +77,8 @@ def arguments(argv=None):
         parser.error(f"{option}: {args.encoder} has no ImageNet weights; give --encoder-weights of prvnet.pretrain")
     if args.head == "ridge" and args.heads not in (None, 1):
         parser.error("--heads: a ridge has one")
+    if not 0 <= args.averaging < 1:
+        parser.error("--averaging: must be at least 0 and less than 1")
     if args.freeze and args.turned:
         parser.error("--turned: a frozen encoder's features are of the crops themselves; give --no-freeze")
     if solved(vars(args)) and (args.loss != "l1" or args.weight_by_sigma):
@@ -92,7 +96,7 @@ def arguments(argv=None):
 def configuration(args, train, validation, test, weights: dict | None) -> dict:
     """Everything that fixes the run's result; `weights` is what `encoder_weights.read` gives."""
     chosen = ("encoder", "levels", "head", "heads", "size", "images", "freeze", "variants", "turn", "seed", "statuses", "target")
-    of_epochs = ("epochs", "batch", "lr", "encoder_lr", "weight_decay", "loss", "weight_by_sigma")
+    of_epochs = ("epochs", "batch", "lr", "encoder_lr", "weight_decay", "averaging", "loss", "weight_by_sigma")
     settings = {key: getattr(args, key) for key in chosen + (() if solved(vars(args)) else of_epochs)}
     views = [row.views for row in fitted(settings, train, validation)]
     low, high = PAPER_RANGE if args.range == "paper" else (int(min(views)), int(max(views)))
@@ -145,8 +149,10 @@ def train(args) -> dict:
     network = start(config, args.out).to(device)
     median = float(np.median([row.views for row in train_rows]))
     known_rows = train_rows + validation_rows
+    # Who goes on has his heads in last.pt.
+    solves = tuned(config) and not (args.out / LAST).is_file()
     bank = None
-    if args.freeze or tuned(config):
+    if args.freeze or solves:
         bank = Bank(args.bank, args.inputs, known_rows, network, args.variants, device)
     if args.freeze:
         network.encoder.requires_grad_(False)
@@ -160,12 +166,10 @@ def train(args) -> dict:
     if solved(config):
         solve(network, source, train_rows, validation_rows, args, config, device)
         return config
-    # Who goes on has his heads in last.pt.
-    if not (args.out / LAST).is_file():
-        if tuned(config):
-            ridge.fit(network, bank, train_rows, config)
-        else:
-            network.start_at(median)
+    if solves:
+        ridge.fit(network, bank, train_rows, config)
+    elif not tuned(config):
+        network.start_at(median)
     by_epochs(network, source, train_rows, validation_rows, args, config, device)
     return config
 
@@ -179,7 +183,7 @@ def solve(network, source, train_rows, validation_rows, args, config, device):
     validation = evaluate(network, source, validation_rows, device)
     ridge.fit(network, source, fitted(config, train_rows, validation_rows), config)
     print(f"solved in {time.process_time() - begin:.0f} CPU seconds, validation L1 {validation:.2f}")
-    save({"weights": trained_state(network, config), "config": config, "epoch": 1, "validation_l1": validation}, args.out / BEST)
+    save({"weights": trained(network, config).state_dict(), "config": config, "epoch": 1, "validation_l1": validation}, args.out / BEST)
 
 
 if __name__ == "__main__":

@@ -67,7 +67,7 @@ def test_labels_become_a_model_file(tmp_path, monkeypatch, freeze, head):
         raise AssertionError("it ran again")
 
     with monkeypatch.context() as patch:
-        patch.setattr(epochs, "epoch_of", fail)
+        patch.setattr(epochs.Descent, "epoch", fail)
         patch.setattr(train.ridge, "fit", fail)
         train.train(train.arguments(list(map(str, options))))
     with pytest.raises(SystemExit, match="other settings"):
@@ -92,6 +92,29 @@ def test_labels_become_a_model_file(tmp_path, monkeypatch, freeze, head):
     for _ in range(2):
         card.main(["--run", str(tmp_path / "run"), "--model", str(file), "--card", str(path)])
     assert path.read_text().count("best constant") == 1 and "% interval reaches" in path.read_text() and "by hand" in path.read_text()
+
+
+def test_a_run_that_keeps_the_mean_of_its_weights_may_be_stopped(tmp_path, monkeypatch):
+    synthetic.make(tmp_path, objects=40, size=64)
+    options = ["--labels", tmp_path / "labels.csv", "--inputs", tmp_path / "inputs", "--size", 64, "--no-freeze", "--head", "ridge",
+               "--encoder", "efficientnet_lite0", "--epochs", 3, "--variants", 2, "--encoder-lr", 1e-2, "--device", "cpu"]  # fmt: skip
+
+    def run(name, averaging):
+        train.train(train.arguments(list(map(str, [*options, "--averaging", averaging, "--out", tmp_path / name]))))
+        return torch.load(tmp_path / name / "last.pt", weights_only=True)
+
+    epoch = epochs.Descent.epoch
+    with monkeypatch.context() as patch:
+        patch.setattr(epochs.Descent, "epoch", lambda self, *args: 1 / 0 if args[2] == 1 else epoch(self, *args))
+        with pytest.raises(ZeroDivisionError):
+            run("stopped", 0.5)
+    stopped, whole, plain = run("stopped", 0.5), run("whole", 0.5), run("plain", 0)
+    name = "heads.0.weight"
+    for kept in ("mean", "weights"):
+        assert torch.equal(stopped[kept][name], whole[kept][name]), kept
+    # The mean follows the descent and does not lead it.
+    assert torch.equal(whole["weights"][name], plain["weights"][name])
+    assert not torch.equal(whole["mean"][name], plain["weights"][name]) and "mean" not in plain
 
 
 def test_the_turns_give_each_other_intervals(tmp_path):
