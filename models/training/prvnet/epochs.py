@@ -101,17 +101,12 @@ class Descent:
             weight = torch.ones_like(target)
             if args.weight_by_sigma:
                 weight = 1 / (3 + torch.tensor([row.sigma for row in part], dtype=torch.float32, device=device))
-            batch, beside = source.batch(items).to(device), 0.0
-            if network.curve is None:
-                answers = network(batch)
-            else:
-                answers, curve = network.answers_and_curve(batch)
-                beside = args.curve_weight * ((curve - network.curve.standardised(part)) ** 2).mean() / 2
+            answers = network(source.batch(items).to(device))
             errors = (answers - target.clamp(low, high).unsqueeze(1)).abs()
             losses = errors
             if args.loss == "huber":
                 losses = torch.where(errors < HUBER_DELTA, errors**2 / (2 * HUBER_DELTA), errors - HUBER_DELTA / 2)
-            self.step((losses.mean(1) * weight).sum() / weight.sum() + beside)
+            self.step((losses.mean(1) * weight).sum() / weight.sum())
             total += float(errors.detach().mean(1).sum())
         return total / len(rows)
 

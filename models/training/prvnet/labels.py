@@ -33,8 +33,6 @@ class Row:
     """The label: the views it needs."""
     sigma: float
     """Standard deviation of `views`."""
-    curve: tuple[tuple[int, float], ...] = ()
-    """What the label was read off: numbers of views and the mean PSNR with them, dB, over black and white together."""
 
 
 def read(labels: Path, inputs: Path, statuses=("ok",), target="v_gain", sizes: int | None = None) -> list[Row]:
@@ -61,7 +59,6 @@ def read(labels: Path, inputs: Path, statuses=("ok",), target="v_gain", sizes: i
                     radius_m=float(line["radius_m"]),
                     views=float(line[target]),
                     sigma=float(line[f"{target}_sigma"] or 0.0),
-                    curve=curve_of(line.get("psnr_both_db") or ""),
                 )
             )
     if without_crops:
@@ -69,12 +66,6 @@ def read(labels: Path, inputs: Path, statuses=("ok",), target="v_gain", sizes: i
     if not rows:
         raise SystemExit(f"{labels}: no row with status {' or '.join(statuses)} and crops in {inputs}")
     return sorted(rows, key=lambda row: row.id)
-
-
-def curve_of(text: str) -> tuple[tuple[int, float], ...]:
-    """`5:27.1/28.3 18:34.7` to ((5, 27.7), (18, 34.7))."""
-    points = (point.split(":") for point in text.split())
-    return tuple((int(count), float(np.mean([float(psnr) for psnr in each.split("/")]))) for count, each in points)
 
 
 def photographed(inputs: Path) -> list[Row]:

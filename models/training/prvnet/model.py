@@ -6,7 +6,6 @@ import torch
 from torch import nn
 
 from . import encoders
-from .curves import CurveHead
 
 
 def mean_and_variance(features):
@@ -80,8 +79,6 @@ class PRVNet(nn.Module):
         self.encoder = encoders.make(config["encoder"], config["size"], config["levels"], pretrained)
         make_head = HEADS[config["head"]]
         self.heads = nn.ModuleList(make_head(2 * self.encoder.dim) for _ in range(config["heads"]))
-        # Learnt beside the count, so that the encoder knows objects better; nobody asks it afterwards.
-        self.curve = CurveHead(2 * self.encoder.dim) if config.get("curve_weight") else None
         self.low, self.high = (float(bound) for bound in config["range"])
 
     def start_at(self, views: float):
@@ -95,17 +92,9 @@ class PRVNet(nn.Module):
         return self.encoder(images.flatten(0, 1)).unflatten(0, images.shape[:2])
 
     def forward(self, x):
-        return self.answers(self.pooled(x))
-
-    def pooled(self, x):
-        """Images or their features to means and variances [B, 2 D]."""
         x = twice_if_single(x)
-        return mean_and_variance(self.encode(x) if x.ndim == 5 else x)
-
-    def answers_and_curve(self, x):
-        """Of a network with a curve: its view counts [B, 1] and what `CurveHead.standardised` should be."""
-        pooled = self.pooled(x)
-        return self.answers(pooled), self.curve(self.heads[0].standardised(pooled))
+        features = mean_and_variance(self.encode(x) if x.ndim == 5 else x)
+        return self.answers(features)
 
     def answers(self, features):
         """Means and variances [B, 2 D] to view counts [B, heads] within the range."""

@@ -97,20 +97,13 @@ def solve(table: torch.Tensor, views: torch.Tensor, folds: torch.Tensor) -> tupl
 
 @torch.no_grad()
 def fit(network, source, rows, config: dict):
-    """Solves the network's one linear head, and that of its curve, for `rows`; `source` gives features."""
+    """Solves the network's one linear head for `rows`; `source` gives features."""
     table = samples(source, rows, config)
     head, means = network.heads[0], table.mean(1)
     head.middle.copy_(means.mean(0))
     head.spread.copy_(means.std(0) + LEAST_SPREAD)
     views = torch.tensor([row.views for row in rows], dtype=torch.float64)
     folds = torch.tensor([fold_of("ridge " + row.group) % FOLDS for row in rows])
-    standardised = head.standardised(table)
-    answers = [(head.weight[0], head.bias[0], views)]
-    if network.curve is not None:
-        network.curve.scale_to(rows)
-        wanted = network.curve.standardised(rows).double().T
-        answers += zip(network.curve.weight, network.curve.bias, wanted)
-    for weight, bias, wanted in answers:
-        weights, offset = solve(standardised, wanted, folds)
-        weight.copy_(weights)
-        bias.fill_(offset)
+    weights, offset = solve(head.standardised(table), views, folds)
+    head.weight.copy_(weights[None])
+    head.bias.fill_(offset)

@@ -58,8 +58,6 @@ def arguments(argv=None):
     add("--weight-decay", type=float, default=0.05)
     add("--averaging", type=float, default=0.0,
         help="keep the running mean of the weights, of which each step leaves so much; 0: the weights themselves")  # fmt: skip
-    add("--curve-weight", type=float, default=0.0,
-        help="what telling the label's whole curve counts beside the count; of networks tuned from a ridge")  # fmt: skip
     add("--loss", choices=("l1", "huber"), default="l1")
     add("--weight-by-sigma", action="store_true", help="count uncertain labels less")
     add("--turn", type=int, choices=range(TURNS), default=0, help="which folds are held out")
@@ -81,8 +79,6 @@ def arguments(argv=None):
         parser.error("--heads: a ridge has one")
     if not 0 <= args.averaging < 1:
         parser.error("--averaging: must be at least 0 and less than 1")
-    if args.curve_weight and not tuned(vars(args)):
-        parser.error("--curve-weight: only networks tuned from a ridge learn curves; give --no-freeze --head ridge")
     if args.freeze and args.turned:
         parser.error("--turned: a frozen encoder's features are of the crops themselves; give --no-freeze")
     if solved(vars(args)) and (args.loss != "l1" or args.weight_by_sigma):
@@ -100,7 +96,7 @@ def arguments(argv=None):
 def configuration(args, train, validation, test, weights: dict | None) -> dict:
     """Everything that fixes the run's result; `weights` is what `encoder_weights.read` gives."""
     chosen = ("encoder", "levels", "head", "heads", "size", "images", "freeze", "variants", "turn", "seed", "statuses", "target")
-    of_epochs = ("epochs", "batch", "lr", "encoder_lr", "weight_decay", "averaging", "curve_weight", "loss", "weight_by_sigma")
+    of_epochs = ("epochs", "batch", "lr", "encoder_lr", "weight_decay", "averaging", "loss", "weight_by_sigma")
     settings = {key: getattr(args, key) for key in chosen + (() if solved(vars(args)) else of_epochs)}
     views = [row.views for row in fitted(settings, train, validation)]
     low, high = PAPER_RANGE if args.range == "paper" else (int(min(views)), int(max(views)))

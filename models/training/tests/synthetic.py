@@ -9,7 +9,7 @@ from PIL import Image
 CONFIG = {"encoder": "convnextv2_atto", "size": 64, "levels": "all", "head": "small", "heads": 2, "range": [13, 58]}
 
 COLUMNS = ("object", "name", "category", "licence", "radius_m", "seed", "status", "v_gain", "v_gain_sigma", "v_near",
-           "v_near_sigma", "v_star", "v_star_sigma", "draw", "psnr_both_db")  # fmt: skip
+           "v_near_sigma", "v_star", "v_star_sigma", "draw")  # fmt: skip
 
 
 def make(folder, objects=40, size=64, seed=0):
@@ -26,16 +26,12 @@ def make(folder, objects=40, size=64, seed=0):
             cells = int(rng.integers(2, size // 3))
             status = "not_converged" if number % 10 == 9 else "ok"
             views = "" if number == 0 else round(15 + 30 * cells / (size // 3) + rng.normal(0, 1))
-            table.writerow((name, name, "", "CC0", radius, number, status, views, "1.50", views and views - 8, "1.00", views and views + 9, "3.00", 0, _curve(cells)))
+            table.writerow((name, name, "", "CC0", radius, number, status, views, "1.50", views and views - 8, "1.00", views and views + 9, "3.00", 0))
             index.writerow((f"row-{number}", name, radius, number))
             (inputs / f"row-{number}").mkdir()
             for k in range(5):
                 image = _ball(size, float(radius), cells, rng)
                 Image.fromarray(image).save(inputs / f"row-{number}" / f"{k}.png")
-
-
-def _curve(cells):
-    return " ".join(f"{n}:{40 - cells * 5 / n:.4f}/{40 - cells * 6 / n:.4f}" for n in (5, 8, 12, 18, 27, 40, 60, 100))
 
 
 def _ball(size, radius, cells, rng):

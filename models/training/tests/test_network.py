@@ -12,9 +12,8 @@ pytestmark = pytest.mark.torch
 
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic
-from prvnet import card, epochs, export, labels, model, runs, train
+from prvnet import card, epochs, export, model, train
 from prvnet.onnx_model import OnnxModel
-from prvnet.sources import Photos
 
 
 @pytest.fixture(scope="module")
@@ -116,27 +115,6 @@ def test_a_run_that_keeps_the_mean_of_its_weights_may_be_stopped(tmp_path, monke
     # The mean follows the descent and does not lead it.
     assert torch.equal(whole["weights"][name], plain["weights"][name])
     assert not torch.equal(whole["mean"][name], plain["weights"][name]) and "mean" not in plain
-
-
-def test_a_network_learns_curves_beside_the_count(tmp_path):
-    synthetic.make(tmp_path, objects=60, size=64)
-    options = ["--labels", tmp_path / "labels.csv", "--inputs", tmp_path / "inputs", "--size", 64, "--no-freeze", "--head", "ridge",
-               "--encoder", "efficientnet_lite0", "--epochs", 1, "--variants", 2, "--device", "cpu", "--curve-weight", 1,
-               "--out", tmp_path / "run"]  # fmt: skip
-    train.train(train.arguments(list(map(str, options))))
-    rows = labels.read(tmp_path / "labels.csv", tmp_path / "inputs")
-    assert rows[0].curve[0][0] == 5 and len(rows[0].curve) == 8
-    network, photos = runs.load_best(tmp_path / "run"), Photos(tmp_path / "inputs", rows, 64)
-    told = set(network.config["rows"]["train"])
-    known = [row for row in rows if row.id in told]
-    with torch.no_grad():
-        views, curve = network.answers_and_curve(photos.batch([(row, 0, [0, 1, 2]) for row in known]))
-    wanted = network.curve.standardised(known)
-    # In units of the targets' spread: the mean alone errs by 1.
-    assert torch.allclose(wanted.std(0, correction=0), torch.ones(5), atol=1e-4)
-    assert float(((curve - wanted) ** 2).mean()) < 0.5 and float(((views[:, 0] - views.mean()) ** 2).mean()) > 1
-    with pytest.raises(SystemExit):
-        train.arguments(list(map(str, [*options, "--freeze"])))
 
 
 def test_the_turns_give_each_other_intervals(tmp_path):
