@@ -50,6 +50,7 @@ pub fn run(args: &Args) -> CliResult {
     let crops = if args.crops {
         images
     } else {
+        of_one_size(&images, &args.images)?;
         let photos: Vec<_> = images.into_iter().map(|image| photo(image, args)).collect();
         predictor.crops(&photos).map_err(named)?
     };
@@ -85,7 +86,7 @@ pub fn run(args: &Args) -> CliResult {
             prediction.rounded, prediction.raw
         );
         eprintln!(
-            "{} trained on {} objects; on others it was off by {:.1} views on average, the best constant by {:.1}",
+            "{} trained on {} labels; on other objects it was off by {:.1} views on average, the best constant by {:.1}",
             info.encoder, info.trained_on, info.held_out_l1, info.best_constant_l1
         );
     }
@@ -95,6 +96,24 @@ pub fn run(args: &Args) -> CliResult {
 fn decode(path: &Path) -> Result<RgbaImage, String> {
     let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     decode_image(&bytes, DEFAULT_MAX_PIXELS).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Intrinsics are in pixels of the photos they belong to: one camera's are no other size's.
+fn of_one_size(images: &[RgbaImage], paths: &[PathBuf]) -> Result<(), String> {
+    let mut named = images.iter().zip(paths);
+    let Some((first, first_path)) = named.next() else { return Ok(()) };
+    match named.find(|(image, _)| image.dimensions() != first.dimensions()) {
+        Some((other, path)) => Err(format!(
+            "{}: {}x{} pixels, but {} has {}x{}; one camera takes photos of one size",
+            path.display(),
+            other.width(),
+            other.height(),
+            first_path.display(),
+            first.width(),
+            first.height()
+        )),
+        None => Ok(()),
+    }
 }
 
 fn photo(image: RgbaImage, args: &Args) -> PhotoInput {
@@ -116,5 +135,20 @@ fn name_photo(error: PredictError, images: &[PathBuf]) -> String {
     match index.and_then(|index| images.get(index)) {
         Some(path) => format!("{}: {error}", path.display()),
         None => error.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn photos_of_two_sizes_are_not_of_one_camera() {
+        let of =
+            |sizes: &[(u32, u32)]| -> Vec<_> { sizes.iter().map(|&(w, h)| RgbaImage::new(w, h)).collect() };
+        let paths = ["top.png", "left.png", "front.png"].map(PathBuf::from);
+        assert_eq!(of_one_size(&of(&[(64, 48), (64, 48), (64, 48)]), &paths), Ok(()));
+        let told = of_one_size(&of(&[(64, 48), (64, 48), (48, 64)]), &paths).unwrap_err();
+        assert!(told.starts_with("front.png: 48x64 pixels, but top.png has 64x48"), "{told}");
     }
 }

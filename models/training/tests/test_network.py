@@ -12,7 +12,7 @@ pytestmark = pytest.mark.torch
 
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic
-from prvnet import card, epochs, export, model, train
+from prvnet import card, epochs, export, model, novelty, refit_novelty, train
 from prvnet.onnx_model import OnnxModel
 
 
@@ -117,7 +117,7 @@ def test_a_run_that_keeps_the_mean_of_its_weights_may_be_stopped(tmp_path, monke
     assert not torch.equal(whole["mean"][name], plain["weights"][name]) and "mean" not in plain
 
 
-def test_the_turns_give_each_other_intervals(tmp_path):
+def test_the_turns_give_each_other_intervals(tmp_path, monkeypatch):
     synthetic.make(tmp_path, objects=60, size=64)
     runs = [tmp_path / f"turn-{turn}" for turn in range(5)]
     for turn, run in enumerate(runs):
@@ -142,4 +142,15 @@ def test_the_turns_give_each_other_intervals(tmp_path):
         exported(runs[1:4])
     # What the run itself holds out stays out of it.
     exported(runs)
-    assert OnnxModel(tmp_path / "m.onnx").metadata["prv.interval_low"] == metadata["prv.interval_low"]
+    before = OnnxModel(tmp_path / "m.onnx")
+    assert before.metadata["prv.interval_low"] == metadata["prv.interval_low"]
+
+    # What the file itself gives is fitted as what PyTorch gives.
+    monkeypatch.setattr(novelty, "COMPONENTS", 10)
+    files = ["--model", tmp_path / "m.onnx", "--labels", tmp_path / "labels.csv", "--inputs", tmp_path / "inputs"]
+    refit_novelty.main([*map(str, files), "--statuses", "ok"])
+    after, photos = OnnxModel(tmp_path / "m.onnx"), np.random.default_rng(0).random((3, 3, 64, 64))
+    assert after.predict(photos) == before.predict(photos) and after.answer(photos)[1] != before.answer(photos)[1]
+    assert after.metadata == before.metadata
+    exported(runs)
+    assert after.answer(photos)[1] == pytest.approx(OnnxModel(tmp_path / "m.onnx").answer(photos)[1], rel=1e-2)
