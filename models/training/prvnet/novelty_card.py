@@ -47,6 +47,8 @@ def lines(model: OnnxModel, clean, shoots_novelty) -> list[str]:
     table["held-out objects, random backgrounds, light and camera"] = np.asarray(shoots_novelty).ravel()
     for name, sets in strange_photos(clean, rng).items():
         table[name] = [model.answer(np.clip(photos, 0, 1))[1] for photos in sets]
+        if name.startswith("noise"):
+            table[f"{name}, 1 photo"] = [model.answer(photos[:1])[1] for photos in sets]
     return ["| photos | sets | median novelty | above 1 |", "|---|---|---|---|"] + [
         f"| {name} | {len(scores)} | {np.median(scores):.2f} | {100 * np.mean(np.asarray(scores) > 1):.0f} % |"
         for name, scores in table.items()
