@@ -52,8 +52,8 @@ struct TableOneArgs {
     /// Folder to write to.
     #[arg(long, env = "PRV_OUT")]
     out: PathBuf,
-    /// How many sizes of each object the networks have learnt from: mode, median and mean are of the same labels. What
-    /// is judged is the first size of each object that is held out.
+    /// How many sizes of each object the networks have learnt from: mode, median and mean are of those labels, and of
+    /// the ones that a network's epoch was chosen by. What is judged is the first size of each object that is held out.
     #[arg(long, env = "PRV_SIZES", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..))]
     sizes: u64,
     /// At most this many objects, the first of the label file.
@@ -79,7 +79,7 @@ pub fn run(args: &Args) -> CliResult {
         let trained_on = predictor.info().trained_on;
         if trained_on as usize != *known {
             eprintln!(
-                "the model of turn {turn} has learnt from {trained_on} labels, mode, median and mean are of {known}"
+                "the model of turn {turn} has learnt from {trained_on} labels; mode, median and mean are of the {known} that it was trained or chosen by"
             );
         }
     }

@@ -67,6 +67,7 @@ pub fn run(args: &Args) -> CliResult {
     let rows = read_rows(&args.labels)?;
     let objects = ObjectLookup::new(&args.objects)?;
     std::fs::create_dir_all(&args.out)?;
+    refuse_other_turn(&args.out, args.yaw_deg)?;
     let bar = ProgressBar::new(rows.len() as u64).with_style(ProgressStyle::with_template(
         "{elapsed_precise} [{wide_bar}] {pos}/{len} objects, {eta_precise} left",
     )?);
@@ -128,6 +129,25 @@ fn read_rows(path: &Path) -> Result<Vec<LabelledRow>, Box<dyn std::error::Error>
     Ok(rows)
 }
 
+/// One folder holds objects turned by one angle: crops of another would be taken for what is asked.
+fn refuse_other_turn(out: &Path, yaw_deg: f64) -> CliResult {
+    let path = out.join("yaw_deg");
+    let known = match std::fs::read_to_string(&path) {
+        Ok(text) => Some(text.trim().parse::<f64>().map_err(|error| format!("{}: {error}", path.display()))?),
+        // Written before objects could be turned.
+        Err(_) if out.join("index.csv").exists() => Some(0.0),
+        Err(_) => None,
+    };
+    match known {
+        Some(known) if known != yaw_deg => Err(format!(
+            "{} holds objects turned by {known} degrees, --yaw-deg is {yaw_deg}: give another --out",
+            out.display()
+        )
+        .into()),
+        _ => Ok(replace_unsynced(&path, format!("{yaw_deg}\n").as_bytes())?),
+    }
+}
+
 /// Writes the row's five crops unless they are there.
 fn photograph(entry: &ObjectEntry, row: &LabelledRow, args: &Args) -> CliResult {
     let folder = args.out.join(&row.id);
@@ -187,6 +207,19 @@ mod tests {
     fn apart(a: &RgbaImage, b: &RgbaImage, channel: usize) -> f64 {
         let each = a.pixels().zip(b.pixels()).map(|(a, b)| f64::from(a[channel].abs_diff(b[channel])));
         each.sum::<f64>() / f64::from(a.width() * a.height())
+    }
+
+    #[test]
+    fn a_folder_holds_objects_turned_by_one_angle() {
+        let folder = tempfile::tempdir().unwrap();
+        refuse_other_turn(folder.path(), 137.5).unwrap();
+        refuse_other_turn(folder.path(), 137.5).unwrap();
+        let told = refuse_other_turn(folder.path(), 90.0).unwrap_err().to_string();
+        assert!(told.contains("turned by 137.5 degrees, --yaw-deg is 90"), "{told}");
+        let old = tempfile::tempdir().unwrap();
+        std::fs::write(old.path().join("index.csv"), "row\n").unwrap();
+        assert!(refuse_other_turn(old.path(), 90.0).is_err());
+        refuse_other_turn(old.path(), 0.0).unwrap();
     }
 
     #[test]

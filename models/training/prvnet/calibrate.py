@@ -7,6 +7,7 @@ import argparse
 import csv
 import json
 import math
+import os
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ from tqdm import tqdm
 from . import INITIAL_IMAGES, MAX_IMAGES, novelty, ridge
 from .epochs import VALIDATION_VARIANTS, Descent, evaluate
 from .model import PRVNet
-from .runs import fitted, load_best, solved, start, trained, tuned
+from .runs import BEST, finished, fitted, load_best, solved, start, trained, tuned
 from .sources import Bank, Photos
 from .splits import FOLDS, fold_of
 
@@ -29,7 +30,10 @@ NOVELTY_SHOOTS = 2
 
 def source_of(run: Path, config: dict, inputs: Path, bank: Path, rows):
     """What the recipe trains from."""
-    return features_of(run, config, inputs, bank, rows) if config["freeze"] else Photos(inputs, rows, config["size"])
+    if config["freeze"]:
+        return features_of(run, config, inputs, bank, rows)
+    turned = json.loads((run / "where.json").read_text()).get("turned", [])
+    return Photos(inputs, rows, config["size"], [Path(folder) for folder in turned])
 
 
 def features_of(run: Path, config: dict, inputs: Path, bank: Path, rows) -> Bank:
@@ -86,13 +90,19 @@ def train_until_best(network, source, known, validation, settings: dict, bar):
     """Epochs as in a run, until none has been better on `validation` for a while; leaves the best one's weights."""
     device = torch.device("cpu")
     descent = Descent(network, argparse.Namespace(**settings), len(known))
+
+    def weights():
+        return {key: value.clone() for key, value in trained(descent.result, settings).state_dict().items()}
+
     best, best_epoch, kept = math.inf, 0, None
+    if tuned(settings):
+        best, kept = evaluate(network, source, validation, device), weights()
     for epoch in range(settings["epochs"]):
         descent.epoch(source, known, epoch, device)
         error = evaluate(descent.result, source, validation, device)
         if error < best:
             best, best_epoch = error, epoch
-            kept = {key: value.clone() for key, value in trained(descent.result, settings).state_dict().items()}
+            kept = weights()
         bar.update()
         if epoch - best_epoch >= PATIENCE:
             break
@@ -119,7 +129,13 @@ def sisters_residuals(sisters: list[Path], config: dict, inputs: Path, rows) -> 
             continue
         if len(own) != len(held_out):
             raise SystemExit(f"{sister} holds objects out that this run does as well, or of other labels")
-        table[[place[row.id] for row in own]] = kept(sister / "held_out.csv", own, lambda: answers_of(sister, inputs, own))
+        if not finished(sister, settings):
+            raise SystemExit(f"{sister} has not been trained to its end")
+        answers = sister / "held_out.csv"
+        if answers.is_file() and answers.stat().st_mtime < (sister / BEST).stat().st_mtime:
+            # Of weights that the run has left behind.
+            answers.unlink()
+        table[[place[row.id] for row in own]] = kept(answers, own, lambda: answers_of(sister, inputs, own))
     missing = int(np.isnan(table).any(1).sum())
     if missing:
         raise SystemExit(f"{missing} of {len(rows)} rows are held out by none of the other runs")
@@ -146,7 +162,8 @@ def kept(path: Path, rows, make) -> np.ndarray:
         if [(line[0], float(line[1])) for line in lines] == [(row.id, row.views) for row in rows]:
             return np.array([[float(row.views) - float(answer) for answer in line[2:]] for row, line in zip(rows, lines)])
     answers = make()
-    partial = path.with_suffix(".part")
+    # Exports side by side may be at the same sister's.
+    partial = path.with_suffix(f".{os.getpid()}.part")
     with open(partial, "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(("row", "label", *(f"shoot_{k}" for k in range(answers.shape[1]))))

@@ -1,6 +1,7 @@
-"""Fits the novelty of a model file again, on the features that the file itself gives; its view counts stay what they are.
+r"""Fits the novelty of a model file again, on the features that the file itself gives; its view counts stay what they are.
 
-    python -m prvnet.refit_novelty --model models/prvnet.onnx --labels models/labels.csv --inputs DIR
+    python -m prvnet.refit_novelty --model models/prvnet.onnx --golden models/prvnet.golden.json --labels models/labels.csv \
+      --sizes 2 --inputs DIR
 
 For a change of `novelty.py` no network has to be trained, nor its run to be at hand.
 """
@@ -92,17 +93,18 @@ def main(argv=None):
     print(f"ONNX Runtime and PyTorch differ by at most {worst:.1e} of the novelty")
     if not worst <= NOVELTY_TOLERANCE:
         raise SystemExit(f"that is more than {NOVELTY_TOLERANCE:.0e}")
-    written = graph.proto.SerializeToString()
+    written, cases = graph.proto.SerializeToString(), None
     if args.golden:
         cases = json.loads(args.golden.read_text())
         if cases["model_sha256"] != hashlib.sha256(args.model.read_bytes()).hexdigest():
             raise SystemExit(f"{args.golden} is not of {args.model}")
-        # Their view counts are the network's, which is the same.
-        cases["model_sha256"] = hashlib.sha256(written).hexdigest()
-        args.golden.write_text(json.dumps(cases, indent=1) + "\n")
     partial = args.model.with_suffix(".part")
     partial.write_bytes(written)
     partial.rename(args.model)
+    if cases:
+        # Their view counts are the network's, which is the same.
+        cases["model_sha256"] = hashlib.sha256(written).hexdigest()
+        args.golden.write_text(json.dumps(cases, indent=1) + "\n")
 
 
 if __name__ == "__main__":

@@ -104,6 +104,6 @@ def fit(network, source, rows, config: dict):
     head.spread.copy_(means.std(0) + LEAST_SPREAD)
     views = torch.tensor([row.views for row in rows], dtype=torch.float64)
     folds = torch.tensor([fold_of("ridge " + row.group) % FOLDS for row in rows])
-    weights, offset = solve(head.standardised(table), views, folds)
+    weights, offset = solve(head.standardised(table.to(head.middle.device)).cpu(), views, folds)
     head.weight.copy_(weights[None])
     head.bias.fill_(offset)

@@ -45,6 +45,13 @@ def save(state, path: Path):
     partial.rename(path)
 
 
+def finished(run: Path, config: dict) -> bool:
+    """Whether its last epoch is over; what is solved has none."""
+    if solved(config):
+        return (run / BEST).is_file()
+    return (run / LAST).is_file() and torch.load(run / LAST, map_location="cpu", weights_only=True)["epoch"] >= config["epochs"]
+
+
 def load_best(run: Path, device="cpu") -> PRVNet:
     """The network of a run's best.pt, ready to be used."""
     state = torch.load(run / BEST, map_location=device, weights_only=True)

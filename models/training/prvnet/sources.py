@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -82,7 +83,8 @@ class Bank:
                 photos = Photos(inputs, [row], config["size"])
                 with torch.no_grad():
                     table = [network.encode(photos.batch([(row, v, slice(None))]).to(device))[0] for v in range(variants)]
-                partial = path.with_suffix(".part")
+                # Runs side by side may be at the same row.
+                partial = path.with_suffix(f".{os.getpid()}.part")
                 with open(partial, "wb") as file:
                     np.save(file, torch.stack(table).cpu().numpy().astype(np.float32))
                 partial.rename(path)
