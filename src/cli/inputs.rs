@@ -67,7 +67,7 @@ pub fn run(args: &Args) -> CliResult {
     let rows = read_rows(&args.labels)?;
     let objects = ObjectLookup::new(&args.objects)?;
     std::fs::create_dir_all(&args.out)?;
-    refuse_other_turn(&args.out, args.yaw_deg)?;
+    keep_angle(&args.out, args.yaw_deg)?;
     let bar = ProgressBar::new(rows.len() as u64).with_style(ProgressStyle::with_template(
         "{elapsed_precise} [{wide_bar}] {pos}/{len} objects, {eta_precise} left",
     )?);
@@ -129,11 +129,13 @@ fn read_rows(path: &Path) -> Result<Vec<LabelledRow>, Box<dyn std::error::Error>
     Ok(rows)
 }
 
-/// One folder holds objects turned by one angle: crops of another would be taken for what is asked.
-fn refuse_other_turn(out: &Path, yaw_deg: f64) -> CliResult {
+/// Notes the angle in the folder; refuses a folder of another, whose crops would be taken for what is asked.
+fn keep_angle(out: &Path, yaw_deg: f64) -> CliResult {
     let path = out.join("yaw_deg");
+    let named = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
     let known = match std::fs::read_to_string(&path) {
-        Ok(text) => Some(text.trim().parse::<f64>().map_err(|error| format!("{}: {error}", path.display()))?),
+        Ok(text) => Some(text.trim().parse::<f64>().map_err(|error| named(&error))?),
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(named(&error).into()),
         // Written before objects could be turned.
         Err(_) if out.join("index.csv").exists() => Some(0.0),
         Err(_) => None,
@@ -212,14 +214,14 @@ mod tests {
     #[test]
     fn a_folder_holds_objects_turned_by_one_angle() {
         let folder = tempfile::tempdir().unwrap();
-        refuse_other_turn(folder.path(), 137.5).unwrap();
-        refuse_other_turn(folder.path(), 137.5).unwrap();
-        let told = refuse_other_turn(folder.path(), 90.0).unwrap_err().to_string();
+        keep_angle(folder.path(), 137.5).unwrap();
+        keep_angle(folder.path(), 137.5).unwrap();
+        let told = keep_angle(folder.path(), 90.0).unwrap_err().to_string();
         assert!(told.contains("turned by 137.5 degrees, --yaw-deg is 90"), "{told}");
         let old = tempfile::tempdir().unwrap();
         std::fs::write(old.path().join("index.csv"), "row\n").unwrap();
-        assert!(refuse_other_turn(old.path(), 90.0).is_err());
-        refuse_other_turn(old.path(), 0.0).unwrap();
+        assert!(keep_angle(old.path(), 90.0).is_err());
+        keep_angle(old.path(), 0.0).unwrap();
     }
 
     #[test]

@@ -7,7 +7,6 @@ import argparse
 import csv
 import json
 import math
-import os
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,7 @@ from tqdm import tqdm
 
 from . import INITIAL_IMAGES, MAX_IMAGES, novelty, ridge
 from .epochs import VALIDATION_VARIANTS, Descent, evaluate
+from .files import whole
 from .model import PRVNet
 from .runs import BEST, finished, fitted, load_best, solved, start, trained, tuned
 from .sources import Bank, Photos
@@ -162,13 +162,10 @@ def kept(path: Path, rows, make) -> np.ndarray:
         if [(line[0], float(line[1])) for line in lines] == [(row.id, row.views) for row in rows]:
             return np.array([[float(row.views) - float(answer) for answer in line[2:]] for row, line in zip(rows, lines)])
     answers = make()
-    # Exports side by side may be at the same sister's.
-    partial = path.with_suffix(f".{os.getpid()}.part")
-    with open(partial, "w", newline="") as file:
+    with whole(path) as partial, open(partial, "w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(("row", "label", *(f"shoot_{k}" for k in range(answers.shape[1]))))
         writer.writerows((row.id, row.views, *(f"{a:.3f}" for a in line)) for row, line in zip(rows, answers))
-    partial.rename(path)
     return np.array([[row.views] for row in rows]) - answers
 
 

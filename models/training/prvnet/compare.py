@@ -19,6 +19,7 @@ import numpy as np
 import torch
 
 from . import INITIAL_IMAGES, baseline, labels, metrics, pretrain, recipes
+from .files import whole
 from .latency import of_network
 from .runs import load_best
 from .sources import Photos
@@ -229,9 +230,8 @@ def markdown(results: dict, best: str | None, args) -> str:
 
 
 def write(path: Path, text: str):
-    partial = path.with_suffix(".part")
-    partial.write_text(text)
-    partial.rename(path)
+    with whole(path) as partial:
+        partial.write_text(text)
 
 
 def main(argv=None):

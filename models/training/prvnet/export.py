@@ -15,6 +15,7 @@ import onnx
 import torch
 
 from . import CROP_HALF_SIZE_M, FORMAT, INITIAL_IMAGES, MAX_IMAGES, calibrate, interval, labels, metrics
+from .files import whole
 from .model import Exported, twice_if_single
 from .onnx_model import OnnxModel
 from .runs import fitted, load_best
@@ -51,6 +52,10 @@ def to_onnx(network, novelty) -> onnx.ModelProto:
     return model
 
 
+def novelty_difference(reference: float, score: float) -> float:
+    return abs(reference - score) / (1e-3 + reference)
+
+
 def check(network, novelty, model: OnnxModel, image_sets) -> tuple[float, float]:
     """The largest differences between PyTorch and ONNX Runtime: in views, and of the novelty, relatively."""
     views, relative = 0.0, 0.0
@@ -59,7 +64,7 @@ def check(network, novelty, model: OnnxModel, image_sets) -> tuple[float, float]
             count, score = model.answer(images.numpy())
             views = max(views, abs(float(network(images.unsqueeze(0)).mean(1)[0]) - count))
             reference = float(novelty(network.encoder(twice_if_single(images[None])[0]))[0])
-            relative = max(relative, abs(reference - score) / (1e-3 + reference))
+            relative = max(relative, novelty_difference(reference, score))
     return views, relative
 
 
@@ -147,9 +152,8 @@ def main(argv=None):
     onnx.helper.set_model_props(proto, {f"prv.{key}": str(value) for key, value in metadata.items()})
     onnx.checker.check_model(proto)
     args.out.parent.mkdir(parents=True, exist_ok=True)
-    partial = args.out.with_suffix(".part")
-    partial.write_bytes(proto.SerializeToString())
-    partial.rename(args.out)
+    with whole(args.out) as partial:
+        partial.write_bytes(proto.SerializeToString())
     print(f"{args.out}: {args.out.stat().st_size / 1e6:.1f} MB, held-out L1 {metadata['held_out_l1']:.2f} views on "
           f"{len(test)} objects, best constant {constant:.2f}")  # fmt: skip
 

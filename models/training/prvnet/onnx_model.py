@@ -8,6 +8,11 @@ import onnxruntime
 from .interval import bounds
 
 
+def twice_if_single(images: np.ndarray) -> np.ndarray:
+    """What the file wants at least two of: float [n, 3, S, S]."""
+    return (np.concatenate([images, images]) if len(images) == 1 else images).astype(np.float32)
+
+
 class OnnxModel:
     def __init__(self, model, threads: int = 2):
         options = onnxruntime.SessionOptions()
@@ -18,9 +23,7 @@ class OnnxModel:
 
     def answer(self, images: np.ndarray) -> tuple[float, float]:
         """View count and novelty of images [n, 3, S, S] in 0..1; a single one is fed twice."""
-        if len(images) == 1:
-            images = np.concatenate([images, images])
-        count, novelty = self.session.run(["view_count", "novelty"], {"images": images.astype(np.float32)})
+        count, novelty = self.session.run(["view_count", "novelty"], {"images": twice_if_single(images)})
         return float(count[0]), float(novelty[0])
 
     def predict(self, images: np.ndarray) -> float:

@@ -19,8 +19,9 @@ from tqdm import tqdm
 
 from . import MAX_IMAGES, labels, novelty
 from .calibrate import NOVELTY_SHOOTS
-from .export import NOVELTY_TOLERANCE
-from .onnx_model import OnnxModel
+from .export import NOVELTY_TOLERANCE, novelty_difference
+from .files import whole
+from .onnx_model import OnnxModel, twice_if_single
 from .sources import Photos
 from .splits import split
 
@@ -49,12 +50,12 @@ class NoveltyGraph:
             self.initializers[name].CopyFrom(numpy_helper.from_array(table, name))
 
     def reader(self):
-        """Photos [n, 3, S, S], n at least 2, to their early features [n, D]."""
+        """Photos [n, 3, S, S] to their early features [n, D]; of a single one twice."""
         proto = onnx.ModelProto()
         proto.CopyFrom(self.proto)
         proto.graph.output.append(onnx.helper.make_tensor_value_info(self.early, onnx.TensorProto.FLOAT, None))
         session = OnnxModel(proto.SerializeToString(), threads=1).session
-        return lambda photos: session.run([self.early], {"images": np.asarray(photos, np.float32)})[0]
+        return lambda photos: session.run([self.early], {"images": twice_if_single(photos)})[0]
 
 
 def main(argv=None):
@@ -66,13 +67,17 @@ def main(argv=None):
     parser.add_argument("--sizes", type=int, help="as the network was trained")
     parser.add_argument("--golden", type=Path, help="file of `prvnet.parity --golden`, which is to name the new file")
     args = parser.parse_args(argv)
-    before = OnnxModel(args.model)
+    read = args.model.read_bytes()
+    cases = json.loads(args.golden.read_text()) if args.golden else None
+    if cases and cases["model_sha256"] != hashlib.sha256(read).hexdigest():
+        raise SystemExit(f"{args.golden} is not of {args.model}")
+    before = OnnxModel(read)
     turn, size = int(before.metadata["prv.turn"]), int(before.metadata["prv.input_size"])
     train, validation, test = split(labels.read(args.labels, args.inputs, args.statuses.split(","), sizes=args.sizes), turn)
     known = train + validation
     if int(before.metadata["prv.held_out"]) != len(test):
         raise SystemExit(f"{args.model} holds out {before.metadata['prv.held_out']} labels, of these it would {len(test)}")
-    graph = NoveltyGraph(onnx.load(str(args.model)))
+    graph = NoveltyGraph(onnx.load_from_string(read))
     early, table = graph.reader(), []
     for row in tqdm(known, "features"):
         photos = Photos(args.inputs, [row], size)
@@ -81,26 +86,19 @@ def main(argv=None):
     graph.replace(fitted)
     onnx.checker.check_model(graph.proto)
 
-    after, worst = OnnxModel(graph.proto.SerializeToString()), 0.0
+    written = graph.proto.SerializeToString()
+    after, worst = OnnxModel(written), 0.0
     for k, row in enumerate(test[:40]):
         photos = Photos(args.inputs, [row], size).get(row, k % 2).numpy()[: 1 + k % MAX_IMAGES]
         count, score = after.answer(photos)
         if count != before.answer(photos)[0]:
             raise SystemExit("the view count has changed")
-        twice = np.concatenate([photos, photos]) if len(photos) == 1 else photos
-        reference = float(fitted(torch.from_numpy(early(twice)))[0])
-        worst = max(worst, abs(reference - score) / (1e-3 + reference))
+        worst = max(worst, novelty_difference(float(fitted(torch.from_numpy(early(photos)))[0]), score))
     print(f"ONNX Runtime and PyTorch differ by at most {worst:.1e} of the novelty")
     if not worst <= NOVELTY_TOLERANCE:
         raise SystemExit(f"that is more than {NOVELTY_TOLERANCE:.0e}")
-    written, cases = graph.proto.SerializeToString(), None
-    if args.golden:
-        cases = json.loads(args.golden.read_text())
-        if cases["model_sha256"] != hashlib.sha256(args.model.read_bytes()).hexdigest():
-            raise SystemExit(f"{args.golden} is not of {args.model}")
-    partial = args.model.with_suffix(".part")
-    partial.write_bytes(written)
-    partial.rename(args.model)
+    with whole(args.model) as partial:
+        partial.write_bytes(written)
     if cases:
         # Their view counts are the network's, which is the same.
         cases["model_sha256"] = hashlib.sha256(written).hexdigest()

@@ -5,6 +5,7 @@ from pathlib import Path
 import torch
 
 from . import encoder_weights
+from .files import whole
 from .model import PRVNet
 
 BEST, LAST = "best.pt", "last.pt"
@@ -40,9 +41,8 @@ def start(config: dict, run: Path) -> PRVNet:
 
 
 def save(state, path: Path):
-    partial = path.with_suffix(".part")
-    torch.save(state, partial)
-    partial.rename(path)
+    with whole(path) as partial:
+        torch.save(state, partial)
 
 
 def finished(run: Path, config: dict) -> bool:

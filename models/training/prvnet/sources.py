@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -12,6 +11,7 @@ from PIL import Image
 from tqdm import tqdm
 
 from . import MAX_IMAGES, augment, labels
+from .files import whole
 
 
 def resized(crops: np.ndarray, size: int) -> np.ndarray:
@@ -83,11 +83,8 @@ class Bank:
                 photos = Photos(inputs, [row], config["size"])
                 with torch.no_grad():
                     table = [network.encode(photos.batch([(row, v, slice(None))]).to(device))[0] for v in range(variants)]
-                # Runs side by side may be at the same row.
-                partial = path.with_suffix(f".{os.getpid()}.part")
-                with open(partial, "wb") as file:
+                with whole(path) as partial, open(partial, "wb") as file:
                     np.save(file, torch.stack(table).cpu().numpy().astype(np.float32))
-                partial.rename(path)
             self.features[row.id] = torch.from_numpy(np.load(path))
 
     def batch(self, items) -> torch.Tensor:
