@@ -24,12 +24,12 @@ const CUT_OFF_SHARE: f64 = 0.1;
 /// The object's radius may leave the range trained on by this share.
 const SIZE_TOLERANCE: f64 = 0.1;
 
-/// A warning if `novelty` is beyond what the training objects' own photos reach.
+/// A warning if `novelty` is beyond what the training objects' own photos reach, as that of an empty table is.
 pub fn unlike_training(novelty: f64) -> Option<Warning> {
     (novelty > 1.0).then(|| {
         let text = format!(
-            "the photos are unlike those of the objects trained on: novelty {novelty:.2}, where one in a hundred of \
-             theirs exceeds 1; the predicted number and its interval may be far off"
+            "the photos are unlike those of the objects trained on, or show no object: novelty {novelty:.2}, where one \
+             in a hundred of theirs exceeds 1; the predicted number and its interval may be far off"
         );
         Warning::new("unlike_training_objects", text)
     })

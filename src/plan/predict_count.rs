@@ -89,8 +89,43 @@ mod tests {
         image
     }
 
+    /// A wall and, from row 90 on, a table of planks with grain, with `photo` before them.
+    fn on_a_table(photo: &RgbaImage) -> RgbaImage {
+        let scene = |x: u32, y: u32| {
+            let (x, y) = (f64::from(x), f64::from(y));
+            if y < 90.0 {
+                return [205.0 - 0.1 * x, 203.0 - 0.1 * x, 196.0 - 0.1 * x];
+            }
+            let grain = (0.9 * y + 6.0 * (0.02 * x + (y / 40.0).floor()).sin()).sin();
+            let shade = 1.0 + 0.06 * grain + 0.05 * (y / 40.0).floor().sin() - 0.0004 * x;
+            [166.0, 122.0, 82.0].map(|channel| channel * shade)
+        };
+        RgbaImage::from_fn(photo.width(), photo.height(), |x, y| {
+            let [r, g, b, a] = photo.get_pixel(x, y).0.map(f64::from);
+            let [s, t, u] = scene(x, y);
+            let over = |front: f64, behind: f64| ((front * a + behind * (255.0 - a)) / 255.0).round() as u8;
+            image::Rgba([over(r, s), over(g, t), over(b, u), 255])
+        })
+    }
+
     fn codes(warnings: &[Warning]) -> Vec<&str> {
         warnings.iter().map(|warning| warning.code).collect()
+    }
+
+    #[test]
+    fn objects_on_a_table_are_familiar_to_the_shipped_model_and_the_table_without_them_is_not() {
+        let predictor = Predictor::load(&model_bytes(None).unwrap(), 1, 1).unwrap();
+        for name in ["mug", "plant", "robot"] {
+            let photos = photos_of(name).iter().map(on_a_table).collect();
+            let (answer, warnings) = predict_count(&request(photos), &predictor).unwrap();
+            assert_eq!(codes(&warnings), Vec::<&str>::new(), "{name}: {answer:?}");
+        }
+        let nothing = RgbaImage::new(small_camera().width, small_camera().height);
+        for count in [1, 3] {
+            let (answer, warnings) =
+                predict_count(&request(vec![on_a_table(&nothing); count]), &predictor).unwrap();
+            assert_eq!(codes(&warnings), ["unlike_training_objects"], "{count}: {answer:?}");
+        }
     }
 
     #[test]

@@ -170,13 +170,16 @@ def kept(path: Path, rows, make) -> np.ndarray:
 
 
 def novelty_of(network: PRVNet, source, rows) -> novelty.Novelty:
-    """The score, fitted to the shoots of `rows`."""
+    """The score, fitted to the shoots of `rows` and to scenes without an object."""
     early = novelty.early_features(network.encoder)
-    every, table = list(range(MAX_IMAGES)), []
+    every, table, empty = list(range(MAX_IMAGES)), [], []
     variants = source.variants if isinstance(source, Bank) else NOVELTY_SHOOTS
     with torch.no_grad():
         for row in tqdm(rows, "novelty", leave=False):
             batch = source.batch([(row, variant, every) for variant in range(variants)])
             features = batch if batch.ndim == 3 else network.encode(batch)
             table.append(features[..., :early].numpy())
-    return novelty.fit(np.stack(table), [row.group for row in rows])
+        for shoot in tqdm(range(novelty.EMPTY_SHOOTS), "empty scenes", leave=False):
+            photos = torch.from_numpy(novelty.empty_photos(network.config["size"], shoot))
+            empty.append(network.encode(photos[None])[0, :, :early].numpy())
+    return novelty.fit(np.stack(table), [row.group for row in rows], np.stack(empty))

@@ -18,7 +18,8 @@ def graph_of(network) -> bytes:
     """The service's graph, with a novelty that has the usual size and tells nothing."""
     dim = early_features(network.encoder)
     plain = {"middle": np.zeros(dim), "spread": np.ones(dim), "center": np.zeros(dim), "deviation": np.ones(dim),
-             "components": np.zeros((min(COMPONENTS, dim), dim)), "scale": np.ones(MAX_IMAGES + 1)}  # fmt: skip
+             "components": np.zeros((min(COMPONENTS, dim), dim)), "scale": np.ones(MAX_IMAGES + 1),
+             "emptiness": np.zeros(dim), "offset": 0, "empty_scale": np.ones(MAX_IMAGES + 1)}  # fmt: skip
     with torch.no_grad():
         return to_onnx(network, Novelty(plain)).SerializeToString()
 

@@ -8,13 +8,14 @@ For a change of `novelty.py` no network has to be trained, nor its run to be at 
 
 import argparse
 import hashlib
+import io
 import json
+import warnings
 from pathlib import Path
 
 import numpy as np
 import onnx
 import torch
-from onnx import numpy_helper
 from tqdm import tqdm
 
 from . import MAX_IMAGES, labels, novelty
@@ -25,7 +26,18 @@ from .onnx_model import OnnxModel, twice_if_single
 from .sources import Photos
 from .splits import split
 
-BUFFERS = ("middle", "spread", "center", "deviation", "scale")
+PREFIX = "/novelty/"
+
+
+class Alone(torch.nn.Module):
+    """The score by itself, named in its graph as in a model file's."""
+
+    def __init__(self, fitted: novelty.Novelty):
+        super().__init__()
+        self.novelty = fitted
+
+    def forward(self, features):
+        return self.novelty(features)
 
 
 class NoveltyGraph:
@@ -33,29 +45,54 @@ class NoveltyGraph:
 
     def __init__(self, proto: onnx.ModelProto):
         self.proto = proto
-        self.initializers = {each.name: each for each in proto.graph.initializer}
-        nodes = [node for node in proto.graph.node if node.name.startswith("/novelty/")]
-        # The components are written transposed, and for that under a name of the exporter's.
-        products = [node.input[1] for node in nodes if node.op_type == "MatMul"]
-        slices = [node.output[0] for node in nodes if node.op_type == "Slice"]
-        missing = [name for name in BUFFERS if f"novelty.{name}" not in self.initializers]
-        if missing or len(products) != 1 or len(slices) != 1:
+        own = [node for node in proto.graph.node if node.name.startswith(PREFIX)]
+        # The exporter shares constants between the score and what is before it.
+        made = {name for node in proto.graph.node if node.op_type == "Constant" or node.name.startswith(PREFIX) for name in node.output}
+        constants = {each.name: each for each in proto.graph.initializer}
+        features = {name for node in own for name in node.input} - made - {*constants, ""}
+        if len(features) != 1 or "novelty.middle" not in constants:
             raise SystemExit("the file's graph is not one of prvnet.export")
-        self.components, self.early = products[0], slices[0]
-
-    def replace(self, fitted: novelty.Novelty):
-        tables = {f"novelty.{name}": getattr(fitted, name).numpy() for name in BUFFERS}
-        tables[self.components] = np.ascontiguousarray(fitted.components.numpy().T)
-        for name, table in tables.items():
-            self.initializers[name].CopyFrom(numpy_helper.from_array(table, name))
+        self.features = features.pop()
+        # How many of the features, from the first, count.
+        self.early = constants["novelty.middle"].dims[0]
 
     def reader(self):
-        """Photos [n, 3, S, S] to their early features [n, D]; of a single one twice."""
+        """Photos [n, 3, S, S] to their features [n, D]; of a single one twice."""
         proto = onnx.ModelProto()
         proto.CopyFrom(self.proto)
-        proto.graph.output.append(onnx.helper.make_tensor_value_info(self.early, onnx.TensorProto.FLOAT, None))
+        proto.graph.output.append(onnx.helper.make_tensor_value_info(self.features, onnx.TensorProto.FLOAT, None))
         session = OnnxModel(proto.SerializeToString(), threads=1).session
-        return lambda photos: session.run([self.early], {"images": twice_if_single(photos)})[0]
+        return lambda photos: session.run([self.features], {"images": twice_if_single(photos)})[0][: len(photos)]
+
+    def replace(self, fitted: novelty.Novelty):
+        """Takes the score's nodes out and puts those of `fitted` in."""
+        buffer = io.BytesIO()
+        with warnings.catch_warnings():
+            # As for the whole file.
+            warnings.simplefilter("ignore")
+            torch.onnx.export(
+                Alone(fitted).eval(), (torch.rand(3, self.early + 1),), buffer, dynamo=False, opset_version=17,
+                input_names=[self.features], output_names=["novelty"], dynamic_axes={self.features: {0: "n"}},
+            )  # fmt: skip
+        new, graph = onnx.load_from_string(buffer.getvalue()).graph, self.proto.graph
+        kept = [node for node in graph.node if not node.name.startswith(PREFIX)]
+        read = {name for node in kept for name in node.input} | {self.features}
+        kept = [node for node in kept if node.op_type != "Constant" or read & {*node.output}]
+        taken = {name for node in kept for name in (*node.input, *node.output)}
+        renamed = {}
+        for name in [each.name for each in new.initializer] + [name for node in new.node for name in node.output]:
+            if name in taken and name not in (self.features, "novelty"):
+                renamed[name] = PREFIX + name
+        for node in new.node:
+            node.name = node.name if node.name.startswith(PREFIX) else PREFIX + node.name.lstrip("/")
+            node.input[:] = [renamed.get(name, name) for name in node.input]
+            node.output[:] = [renamed.get(name, name) for name in node.output]
+        for each in new.initializer:
+            each.name = renamed.get(each.name, each.name)
+        constants = [each for each in graph.initializer if each.name in taken]
+        del graph.node[:], graph.initializer[:]
+        graph.node.extend([*kept, *new.node])
+        graph.initializer.extend([*constants, *new.initializer])
 
 
 def main(argv=None):
@@ -78,11 +115,12 @@ def main(argv=None):
     if int(before.metadata["prv.held_out"]) != len(test):
         raise SystemExit(f"{args.model} holds out {before.metadata['prv.held_out']} labels, of these it would {len(test)}")
     graph = NoveltyGraph(onnx.load_from_string(read))
-    early, table = graph.reader(), []
+    features, early, table = graph.reader(), graph.early, []
     for row in tqdm(known, "features"):
         photos = Photos(args.inputs, [row], size)
-        table.append(np.stack([early(photos.get(row, variant).numpy()) for variant in range(NOVELTY_SHOOTS)]))
-    fitted = novelty.fit(np.stack(table), [row.group for row in known]).eval()
+        table.append(np.stack([features(photos.get(row, variant).numpy())[:, :early] for variant in range(NOVELTY_SHOOTS)]))
+    empty = [features(novelty.empty_photos(size, shoot))[:, :early] for shoot in tqdm(range(novelty.EMPTY_SHOOTS), "empty scenes")]
+    fitted = novelty.fit(np.stack(table), [row.group for row in known], np.stack(empty)).eval()
     graph.replace(fitted)
     onnx.checker.check_model(graph.proto)
 
@@ -93,7 +131,7 @@ def main(argv=None):
         count, score = after.answer(photos)
         if count != before.answer(photos)[0]:
             raise SystemExit("the view count has changed")
-        worst = max(worst, novelty_difference(float(fitted(torch.from_numpy(early(photos)))[0]), score))
+        worst = max(worst, novelty_difference(float(fitted(torch.from_numpy(features(twice_if_single(photos))))[0]), score))
     print(f"ONNX Runtime and PyTorch differ by at most {worst:.1e} of the novelty")
     if not worst <= NOVELTY_TOLERANCE:
         raise SystemExit(f"that is more than {NOVELTY_TOLERANCE:.0e}")

@@ -18,11 +18,17 @@ def features(rng, mixing, rows, shoots=8):
     return (causes @ mixing + noise).astype(np.float32)
 
 
+def empty_scenes(rng, mixing, scenes):
+    """The same causes behind them, one of them stronger than objects have it: nothing is outside of the components."""
+    causes = 0.5 * rng.normal(size=(scenes, 5, RANK)) + 2.8 * np.eye(RANK)[0]
+    return (causes @ mixing + 0.2 * rng.standard_t(3, (scenes, 5, DIM))).astype(np.float32)
+
+
 @pytest.fixture(scope="module")
 def known():
     rng = np.random.default_rng(0)
     mixing = rng.normal(size=(RANK, DIM))
-    score = novelty.fit(features(rng, mixing, 120), [f"object-{k}" for k in range(120)]).eval()
+    score = novelty.fit(features(rng, mixing, 120), [f"object-{k}" for k in range(120)], empty_scenes(rng, mixing, 100)).eval()
     return score, mixing
 
 
@@ -55,5 +61,21 @@ def test_other_causes_behind_the_same_spread_are_novel(known):
 def test_the_same_data_gives_the_same_score(known):
     _, mixing = known
     table = features(np.random.default_rng(4), mixing, 30)
-    first, second = (novelty.fit(table, [str(k) for k in range(30)]) for _ in range(2))
+    empty = empty_scenes(np.random.default_rng(5), mixing, 20)
+    first, second = (novelty.fit(table, [str(k) for k in range(30)], empty) for _ in range(2))
     assert all(torch.equal(a, b) for a, b in zip(first.state_dict().values(), second.state_dict().values()))
+
+
+@pytest.mark.parametrize("photos", [2, 3, 5])
+def test_empty_scenes_are_told_apart_although_their_features_are_no_further_off(known, photos):
+    score, mixing = known
+    new = empty_scenes(np.random.default_rng(6), mixing, 50)[None, :, :photos]
+    assert np.mean(scores(score, new) > 1) > 0.95
+    outside = score.outside(torch.from_numpy(new[0].mean(1))) / score.scale[photos]
+    assert float(outside.median()) < 1
+
+
+def test_a_scene_without_its_object_is_a_background_in_the_light_of_its_shoot():
+    first, again, other = novelty.empty_photos(32, 1), novelty.empty_photos(32, 1), novelty.empty_photos(32, 2)
+    assert first.shape == (5, 3, 32, 32) and np.array_equal(first, again) and not np.array_equal(first, other)
+    assert first.min() >= 0 and first.max() <= 1

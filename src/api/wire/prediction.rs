@@ -43,8 +43,8 @@ pub struct PredictionAnswer {
     pub raw: f64,
     /// Least and largest number of views between which 80 % of objects' labels lie.
     pub interval: [u32; 2],
-    /// How unlike the objects trained on the photos are: one in a hundred of their own photos exceeds 1. Beyond it
-    /// the warning `unlike_training_objects` comes with the answer.
+    /// How unlike those of the objects trained on, or how empty, the photos are: one in a hundred of theirs exceeds 1.
+    /// Beyond it the warning `unlike_training_objects` comes with the answer.
     pub novelty: f64,
     /// SHA-256 of the model.
     pub model: String,
