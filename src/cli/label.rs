@@ -48,6 +48,10 @@ pub struct Args {
     /// How each NeRF is trained. Views needed move with it: keep labels of two kinds in two files.
     #[arg(long, env = "PRV_TRAINING", value_enum, default_value_t = Training::Label)]
     training: Training,
+    /// Exit with 0 although objects could not be labelled, as where a queue would start a failed job again. They are
+    /// named on stderr, and tried again by the next run.
+    #[arg(long, env = "PRV_ALLOW_FAILURES")]
+    allow_failures: bool,
     /// Print one JSON line an object to stdout.
     #[arg(long, env = "PRV_JSON")]
     json: bool,
@@ -152,8 +156,42 @@ pub fn run(args: &Args) -> CliResult {
     });
     bar.finish();
     outcome?;
+    let failures = |n| format!("{n} of the labels could not be made; see the lines above");
     match failed.into_inner() {
         0 => Ok(()),
-        n => Err(format!("{n} objects could not be labelled; see the lines above").into()),
+        n if args.allow_failures => {
+            eprintln!("{}", failures(n));
+            Ok(())
+        }
+        n => Err(failures(n).into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_labelled_fails_the_command_unless_failures_are_allowed() {
+        let folder = tempfile::tempdir().unwrap();
+        let broken = folder.path().join("broken.obj");
+        std::fs::write(&broken, "v 0 0 0\nv 1 0 0\nf 1 2 9\n").unwrap();
+        let args = |allow_failures| Args {
+            objects: vec![broken.display().to_string()],
+            out: folder.path().join("labels.csv"),
+            shard: Shard { index: 0, count: 1 },
+            resume: true,
+            jobs: 1,
+            limit: None,
+            sizes: 1,
+            repeat: 0,
+            training: Training::Label,
+            allow_failures,
+            json: false,
+        };
+        let refused = run(&args(false)).unwrap_err().to_string();
+        assert!(refused.starts_with("1 of the labels could not be made"), "{refused}");
+        run(&args(true)).unwrap();
+        assert!(LabelStore::open(&folder.path().join("labels.csv")).unwrap().is_empty());
     }
 }

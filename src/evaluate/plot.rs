@@ -35,12 +35,13 @@ pub fn bars(table: &TableOne) -> String {
                 "<rect x=\"{x:.1}\" y=\"{top:.1}\" width=\"36\" height=\"{bar:.1}\" fill=\"{fill}\"/>\n\
                  <path d=\"M{middle:.1} {:.1}V{:.1}\" stroke=\"#333\"/>\n\
                  <text x=\"{middle:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\n\
-                 <text x=\"{middle:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"9\">{:.3}</text>\n",
+                 <text x=\"{middle:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"9\">{:.*}</text>\n",
                 top - error,
                 top + error,
                 BASE + 16.0,
                 row.method.name(),
                 BASE + 30.0,
+                quantity.decimals(),
                 cell.mean,
             ));
         }
@@ -61,6 +62,7 @@ mod tests {
         let rows = Method::ALL.map(|method| Row { method, views: (1, 1.0, 1), cells: [cell; 3] }).to_vec();
         let svg = bars(&TableOne { objects: 9, rows });
         assert_eq!(svg.matches("width=\"36\"").count(), 12);
+        assert_eq!((svg.matches(">0.500<").count(), svg.matches(">0.50000<").count()), (8, 4), "SSIM has more digits");
         assert!(svg.contains("PRVNet") && !svg.contains("GT label") && !svg.contains("NaN"));
     }
 }

@@ -32,6 +32,14 @@ impl Quantity {
         }
     }
 
+    /// Decimals that a difference of it is written with.
+    pub(super) fn decimals(self) -> usize {
+        match self {
+            Quantity::Psnr | Quantity::Movement => 3,
+            Quantity::Ssim => 5,
+        }
+    }
+
     fn of(self, reconstruction: &Reconstruction) -> f64 {
         match self {
             Quantity::Psnr => reconstruction.psnr_db,
@@ -116,7 +124,6 @@ impl TableOne {
             let (least, mean, most) = row.views;
             let views =
                 if least == most { least.to_string() } else { format!("{least} to {most}, mean {mean:.1}") };
-            let digits = [3, 5, 3];
             let cells: Vec<String> = row
                 .cells
                 .iter()
@@ -125,7 +132,7 @@ impl TableOne {
                     let better = prvnet.is_some_and(|p| p.cells[k].mean < cell.mean);
                     let star = better && cell.p_value.is_some_and(|p| p < SIGNIFICANT);
                     let p = cell.p_value.map_or_else(String::new, |p| format!(" ({})", p_text(p)));
-                    let d = digits[k];
+                    let d = Quantity::ALL[k].decimals();
                     format!("{:.d$} ± {:.d$}{}{p}", cell.mean, cell.deviation, if star { "*" } else { "" })
                 })
                 .collect();
