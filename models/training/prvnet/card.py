@@ -13,10 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
-from . import INITIAL_IMAGES, MAX_IMAGES, baseline, calibrate, interval, labels, metrics, novelty_card, repeatability
+from . import INITIAL_IMAGES, MAX_IMAGES, augment, baseline, calibrate, interval, labels, metrics, novelty_card, repeatability
 from .onnx_model import OnnxModel
 from .runs import fitted
-from .sources import Photos, all_subsets
+from .sources import Photos, all_subsets, shoot_seed
 
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 SHOOTS = 8
@@ -62,9 +62,9 @@ def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path) -> 
         f"| regression on image statistics | {error(baseline.evaluate(inputs, rows, config['turn']))} |",
         f"| PRVNet, random backgrounds, light and camera ({SHOOTS} shoots) | "
         f"{metrics.with_interval(np.abs(shoots - truth[:, None]).mean(1), groups)} |",
+        f"| the objects it was chosen by | {of_validation(model, inputs, validation)} |",
         "",
-        f"Between a clean render and a random shoot of the same object the answer moves by "
-        f"{np.abs(shoots - initial[:, None]).mean():.1f} views on average.",
+        *movement(test, np.abs(shoots - initial[:, None])),
         "",
         "| photos | L1, mean over every choice of that many of the five |",
         "|---|---|",
@@ -74,6 +74,29 @@ def figures(model: OnnxModel, config: dict, labels_path: Path, inputs: Path) -> 
         lines.append(f"| {count} | {metrics.with_interval(np.abs(answers - truth[:, None]).mean(1), groups)} |")
     lines += ["", *coverage(model, truth, initial, shoots), "", *novelty_card.lines(model, clean, shoots_novelty)]
     return "\n".join(lines)
+
+
+def of_validation(model: OnnxModel, inputs: Path, rows) -> str:
+    photos = Photos(inputs, rows, int(model.metadata["prv.input_size"]))
+    predicted = np.array([model.predict(photos.get(row, 0)[:INITIAL_IMAGES].numpy()) for row in rows])
+    return metrics.with_interval(np.abs(predicted - [row.views for row in rows]), [row.group for row in rows])
+
+
+def movement(rows, moved: np.ndarray) -> list[str]:
+    """How far the answer to random shoots [rows, SHOOTS] is from that to the clean photos, by what is behind the object."""
+    kinds = np.array([[scene_kind(row, 1 + v) for v in range(SHOOTS)] for row in rows])
+    parts = {"all": np.full(kinds.shape, True), "white (masked): light, camera and placement alone": kinds == "white"}
+    parts |= {f"{kind}, and light, camera and placement": kinds == kind for kind in sorted(set(kinds.ravel()) - {"white"})}
+    lines = ["| random shoots, by background | sets | the answer moves by, mean | by at most 2 views | at most |", "|---|---|---|---|---|"]
+    for name, part in parts.items():
+        far = moved[part]
+        if len(far):
+            lines.append(f"| {name} | {len(far)} | {far.mean():.2f} views | {100 * np.mean(far <= 2):.1f} % | {far.max():.1f} views |")
+    return lines
+
+
+def scene_kind(row, variant: int) -> str:
+    return str(augment.Scene(np.random.default_rng(shoot_seed(row, variant))).kind)
 
 
 def coverage(model: OnnxModel, truth, initial, shoots) -> list[str]:
@@ -128,7 +151,6 @@ def main(argv=None):
     parser.add_argument("--model", type=Path, required=True)
     parser.add_argument("--labels", type=Path, help="default: what the run was trained on")
     parser.add_argument("--inputs", type=Path, help="default: what the run was trained on")
-    parser.add_argument("--compare", type=Path, help="compare.md of prvnet.compare")
     parser.add_argument("--repeats", type=Path, help="labels of the same objects measured again")
     parser.add_argument("--sisters", type=Path, nargs="+", help="the runs of all turns: every object held out once")
     parser.add_argument("--card", type=Path, help="the file to update; without it the figures are only printed")
@@ -141,8 +163,6 @@ def main(argv=None):
         text += "\n\n" + every_object_once(args.sisters, config, labels_path, inputs)
     if args.repeats and args.repeats.is_file():
         text += "\n\n" + "\n".join(repeatability.lines(labels_path, args.repeats))
-    if args.compare and args.compare.is_file():
-        text += "\n\n" + args.compare.read_text().strip()
     print(text)
     if args.card:
         update(args.card, text)

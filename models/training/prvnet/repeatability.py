@@ -41,7 +41,7 @@ def lines(first: Path, second: Path) -> list[str]:
             continue
         apart = np.abs(both[:, 0] - both[:, 1]).mean()
         spread, correlation = both.mean(1).std(ddof=1), np.corrcoef(both.T)[0, 1]
-        text.append(f"| {NAMES[target]} | {len(both)} | {apart:.1f} views | {spread:.1f} views | {correlation:.2f} |")
+        text.append(f"| {NAMES[target]} | {len(both)} | {apart:.2f} views | {spread:.1f} views | {correlation:.2f} |")
     return text
 
 

@@ -92,6 +92,7 @@ def test_labels_become_a_model_file(tmp_path, monkeypatch, freeze, head):
     for _ in range(2):
         card.main(["--run", str(tmp_path / "run"), "--model", str(file), "--card", str(path)])
     assert path.read_text().count("best constant") == 1 and "% interval reaches" in path.read_text() and "by hand" in path.read_text()
+    assert "| all | " in path.read_text() and "light, camera and placement alone" in path.read_text()
 
 
 def test_a_run_that_keeps_the_mean_of_its_weights_may_be_stopped(tmp_path, monkeypatch):
