@@ -20,7 +20,7 @@ def shoot(crops: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     """Random photos of one shoot: crops [n, S, S, 4] of bytes to [n, S, S, 3] float32 in 0..1."""
     side = crops.shape[1]
     scene = Scene(rng)
-    return np.stack([_photo(crop, scene.background(side, rng), scene, rng) for crop in crops])
+    return np.stack([photo(crop, scene.background(side, rng), scene, rng) for crop in crops])
 
 
 class Scene:
@@ -67,7 +67,8 @@ def _smooth_noise(side: int, rng: np.random.Generator, stretch: float = 1.0) -> 
     return np.clip(total / weight, 0, 1)
 
 
-def _photo(crop: np.ndarray, background: np.ndarray, scene: Scene, rng: np.random.Generator) -> np.ndarray:
+def photo(crop: np.ndarray, background: np.ndarray, scene: Scene, rng: np.random.Generator) -> np.ndarray:
+    """A crop [S, S, 4] of bytes before `background` [S, S, 3] in the scene's light and camera, [S, S, 3] float32 in 0..1."""
     crop = _move(crop, rng)
     alpha = crop[..., 3:].astype(np.float32) / 255
     image = crop[..., :3].astype(np.float32) / 255 * alpha + background * (1 - alpha)

@@ -13,7 +13,7 @@ import numpy as np
 import torch
 from tqdm import tqdm
 
-from . import INITIAL_IMAGES, MAX_IMAGES, novelty, ridge
+from . import INITIAL_IMAGES, novelty, ridge
 from .epochs import VALIDATION_VARIANTS, Descent, evaluate
 from .files import whole
 from .model import PRVNet
@@ -24,8 +24,6 @@ from .splits import FOLDS, fold_of
 TURNS = 5
 # Epochs without a better one after which a network is taken as it was best: heads are at theirs within twenty.
 PATIENCE = 40
-# Shoots of each row that the novelty is fitted to where no features of them are kept.
-NOVELTY_SHOOTS = 2
 
 
 def source_of(run: Path, config: dict, inputs: Path, bank: Path, rows):
@@ -169,17 +167,12 @@ def kept(path: Path, rows, make) -> np.ndarray:
     return np.array([[row.views] for row in rows]) - answers
 
 
-def novelty_of(network: PRVNet, source, rows) -> novelty.Novelty:
-    """The score, fitted to the shoots of `rows` and to scenes without an object."""
+def novelty_of(network: PRVNet, inputs: Path, rows) -> novelty.Novelty:
+    """The score of the network's photos."""
     early = novelty.early_features(network.encoder)
-    every, table, empty = list(range(MAX_IMAGES)), [], []
-    variants = source.variants if isinstance(source, Bank) else NOVELTY_SHOOTS
-    with torch.no_grad():
-        for row in tqdm(rows, "novelty", leave=False):
-            batch = source.batch([(row, variant, every) for variant in range(variants)])
-            features = batch if batch.ndim == 3 else network.encode(batch)
-            table.append(features[..., :early].numpy())
-        for shoot in tqdm(range(novelty.EMPTY_SHOOTS), "empty scenes", leave=False):
-            photos = torch.from_numpy(novelty.empty_photos(network.config["size"], shoot))
-            empty.append(network.encode(photos[None])[0, :, :early].numpy())
-    return novelty.fit(np.stack(table), [row.group for row in rows], np.stack(empty))
+
+    def features(photos) -> np.ndarray:
+        with torch.no_grad():
+            return network.encode(torch.from_numpy(photos)[None])[0, :, :early].numpy()
+
+    return novelty.fit_to_shoots(features, inputs, rows, network.config["size"])

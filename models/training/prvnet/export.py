@@ -98,17 +98,17 @@ def main(argv=None):
     validation = [rows[id] for id in config["rows"]["validation"]]
     known = train + validation
     bank = args.bank or Path(where.get("bank", args.inputs / ".features"))
-    source = calibrate.source_of(args.run, config, args.inputs, bank, known)
     begin = time.process_time()
     if args.sisters:
         residuals = calibrate.sisters_residuals(args.sisters, config, args.inputs, known)
     else:
+        source = calibrate.source_of(args.run, config, args.inputs, bank, known)
         features = calibrate.features_of(args.run, config, args.inputs, bank, known) if config["head"] == "ridge" else None
         residuals = calibrate.residuals(args.run, config, source, features, known, args.turns)
     low, high = interval.offsets(residuals)
     print(f"{len(known)} objects' rows left out in turn: L1 {np.abs(residuals).mean():.2f} views, "
           f"{100 * interval.LEVEL:.0f} % interval {low:+.1f} to {high:+.1f}")  # fmt: skip
-    novelty = calibrate.novelty_of(network, source, known).eval()
+    novelty = calibrate.novelty_of(network, args.inputs, known).eval()
     print(f"calibrated in {time.process_time() - begin:.0f} CPU seconds")
 
     proto = to_onnx(network, novelty)

@@ -2,16 +2,22 @@
 
 The score is the larger of two. One is the part of the photos' features outside of the leading principal components of
 those trained on. The other is how far they are on the way from photos with an object to photos of the same scenes
-without one, which random backgrounds put inside of those components. Only the features of early stages count: they tell
+without one, which random backgrounds put inside of those components. Objects and empty scenes are shot before surfaces
+too (`surfaces.py`), which no network learnt from, so that an object on a table of wood is no stranger than one on white.
+Only the features of early stages count: they tell
 noise, blank, torn and out-of-scale photos from photos of things, which the last layer, made to tell kinds of things
 apart, does not.
 """
 
+from pathlib import Path
+
 import numpy as np
 import torch
 from torch import nn
+from tqdm import tqdm
 
-from . import MAX_IMAGES, augment
+from . import MAX_IMAGES, augment, surfaces
+from .sources import Photos, shoot_seed
 from .splits import fold_of
 
 # With 32, noise in a single photo was as near to objects as a hundredth of their own photos are; negatives and dark
@@ -22,7 +28,9 @@ FOLDS = 5
 EXCEEDING = 0.01
 # Features have heavy tails: asinh(STEEPNESS z) makes far outliers count as their logarithm.
 STEEPNESS = 3.0
-# Shoots of scenes without an object; the penalty of the regression that tells them from the others, as a share of the
+# Shoots of each row, the first of them clean, besides the one before surfaces.
+SHOOTS = 2
+# Shoots of scenes without an object, every second before surfaces; the penalty of the regression that tells them from the others, as a share of the
 # features' mean square.
 EMPTY_SHOOTS = 400
 EMPTY_PENALTY = 0.3
@@ -42,9 +50,16 @@ def squashed(x):
     return x.sign() * torch.log(x.abs() + torch.sqrt(x * x + 1))
 
 
+def photos_before_surfaces(crops: np.ndarray, seed: list[int]) -> np.ndarray:
+    """[5, 3, S, S] of one shoot of crops [5, S, S, 4] of bytes."""
+    return surfaces.shoot(crops, np.random.default_rng([0x5F, *seed])).transpose(0, 3, 1, 2)
+
+
 def empty_photos(size: int, shoot: int) -> np.ndarray:
     """[5, 3, size, size] of one shoot of a scene that lacks its object."""
     nothing = np.zeros((MAX_IMAGES, size, size, 4), np.uint8)
+    if shoot % 2:
+        return photos_before_surfaces(nothing, [shoot])
     return augment.shoot(nothing, np.random.default_rng([0xE3, shoot])).transpose(0, 3, 1, 2)
 
 
@@ -139,6 +154,19 @@ def fit(features: np.ndarray, groups, empty: np.ndarray, seed: int = 0) -> Novel
     for count, each in enumerate(scores, 1):
         fitted["scale"][count], fitted["empty_scale"][count] = _scales(np.concatenate(each, 1))
     return Novelty(fitted)
+
+
+def fit_to_shoots(features, inputs: Path, rows, size: int) -> Novelty:
+    """The score of photos whose early features [5, D] are `features` of [5, 3, size, size], fitted to shoots of `rows` and
+    of scenes without an object."""
+    table = []
+    for row in tqdm(rows, "novelty"):
+        photos = Photos(inputs, [row], size)
+        shoots = [photos.get(row, variant).numpy() for variant in range(SHOOTS)]
+        shoots.append(photos_before_surfaces(photos.crops[row.id][0], shoot_seed(row, 0)))
+        table.append(np.stack([features(each) for each in shoots]))
+    empty = [features(empty_photos(size, shoot)) for shoot in tqdm(range(EMPTY_SHOOTS), "empty scenes")]
+    return fit(np.stack(table), [row.group for row in rows], np.stack(empty))
 
 
 def _scales(scores: np.ndarray) -> np.ndarray:

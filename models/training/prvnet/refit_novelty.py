@@ -13,13 +13,10 @@ import json
 import warnings
 from pathlib import Path
 
-import numpy as np
 import onnx
 import torch
-from tqdm import tqdm
 
 from . import MAX_IMAGES, labels, novelty
-from .calibrate import NOVELTY_SHOOTS
 from .export import NOVELTY_TOLERANCE, novelty_difference
 from .files import whole
 from .onnx_model import OnnxModel, twice_if_single
@@ -115,12 +112,8 @@ def main(argv=None):
     if int(before.metadata["prv.held_out"]) != len(test):
         raise SystemExit(f"{args.model} holds out {before.metadata['prv.held_out']} labels, of these it would {len(test)}")
     graph = NoveltyGraph(onnx.load_from_string(read))
-    features, early, table = graph.reader(), graph.early, []
-    for row in tqdm(known, "features"):
-        photos = Photos(args.inputs, [row], size)
-        table.append(np.stack([features(photos.get(row, variant).numpy())[:, :early] for variant in range(NOVELTY_SHOOTS)]))
-    empty = [features(novelty.empty_photos(size, shoot))[:, :early] for shoot in tqdm(range(novelty.EMPTY_SHOOTS), "empty scenes")]
-    fitted = novelty.fit(np.stack(table), [row.group for row in known], np.stack(empty)).eval()
+    features = graph.reader()
+    fitted = novelty.fit_to_shoots(lambda photos: features(photos)[:, : graph.early], args.inputs, known, size).eval()
     graph.replace(fitted)
     onnx.checker.check_model(graph.proto)
 

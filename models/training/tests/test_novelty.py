@@ -6,7 +6,7 @@ import pytest
 torch = pytest.importorskip("torch")
 pytestmark = pytest.mark.torch
 
-from prvnet import novelty  # noqa: E402
+from prvnet import novelty, surfaces  # noqa: E402
 
 DIM, RANK = 60, 5
 
@@ -79,3 +79,21 @@ def test_a_scene_without_its_object_is_a_background_in_the_light_of_its_shoot():
     first, again, other = novelty.empty_photos(32, 1), novelty.empty_photos(32, 1), novelty.empty_photos(32, 2)
     assert first.shape == (5, 3, 32, 32) and np.array_equal(first, again) and not np.array_equal(first, other)
     assert first.min() >= 0 and first.max() <= 1
+
+
+def test_surfaces_have_joints_and_grain_of_all_kinds_and_stay_in_range():
+    drawn = [surfaces.surface(48, np.random.default_rng(seed)) for seed in range(40)]
+    assert all(each.shape == (48, 48, 3) and 0 <= each.min() and each.max() <= 1 for each in drawn)
+    # Neighbouring pixels' part of the contrast: from stone, rough, to cloth stretched along a direction, smooth.
+    rough = [np.abs(np.diff(each, axis=0)).mean() / each.std() for each in drawn]
+    assert min(rough) < 0.1 and max(rough) > 0.4
+    assert np.array_equal(drawn[3], surfaces.surface(48, np.random.default_rng(3)))
+
+
+def test_an_object_before_a_surface_hides_it_and_stays_in_its_own_light():
+    crops = np.zeros((2, 32, 32, 4), np.uint8)
+    crops[:, 8:24, 8:24] = (255, 0, 0, 255)
+    for seed in range(5):
+        photos = surfaces.shoot(crops, np.random.default_rng(seed))
+        inside = photos[:, 14:18, 14:18]
+        assert inside[..., 0].mean() > inside[..., 1:].mean() + 0.3 and photos[:, 0].std() > 0
