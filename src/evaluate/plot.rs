@@ -62,7 +62,11 @@ mod tests {
         let rows = Method::ALL.map(|method| Row { method, views: (1, 1.0, 1), cells: [cell; 3] }).to_vec();
         let svg = bars(&TableOne { objects: 9, rows });
         assert_eq!(svg.matches("width=\"36\"").count(), 12);
-        assert_eq!((svg.matches(">0.500<").count(), svg.matches(">0.50000<").count()), (8, 4), "SSIM has more digits");
+        assert_eq!(
+            (svg.matches(">0.500<").count(), svg.matches(">0.50000<").count()),
+            (8, 4),
+            "SSIM has more digits"
+        );
         assert!(svg.contains("PRVNet") && !svg.contains("GT label") && !svg.contains("NaN"));
     }
 }

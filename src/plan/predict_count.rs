@@ -96,7 +96,9 @@ mod tests {
             if y < 90.0 {
                 return [205.0 - 0.1 * x, 203.0 - 0.1 * x, 196.0 - 0.1 * x];
             }
-            let grain = (0.9 * y + 6.0 * (0.02 * x + (y / 40.0).floor()).sin()).sin();
+            let along = y + 6.0 * (0.02 * x + (y / 40.0).floor()).sin();
+            let grain =
+                ((0.31 * along).sin() + (0.73 * along + 1.0).sin() + (1.37 * along + 2.0).sin()) / 3.0;
             let shade = 1.0 + 0.06 * grain + 0.05 * (y / 40.0).floor().sin() - 0.0004 * x;
             [166.0, 122.0, 82.0].map(|channel| channel * shade)
         };
