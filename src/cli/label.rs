@@ -109,6 +109,12 @@ pub fn run(args: &Args) -> CliResult {
     let mut entries: Vec<ObjectEntry> = select_objects(&args.objects)?;
     entries.sort_by_cached_key(|entry| seed_of(&entry.key, 0));
     let all = entries.len();
+    if all == 0 {
+        let asked = args.objects.join(" ");
+        return Err(
+            format!("no usable object in {asked}; `prv objects --all` says what is wrong with each").into()
+        );
+    }
     entries.retain(|entry| seed_of(&entry.key, 1) % args.shard.count == args.shard.index);
     entries.truncate(args.limit.unwrap_or(usize::MAX));
     let work: Vec<(&ObjectEntry, u64)> = (0..args.sizes)
@@ -175,9 +181,14 @@ mod tests {
     fn what_cannot_be_labelled_fails_the_command_unless_failures_are_allowed() {
         let folder = tempfile::tempdir().unwrap();
         let broken = folder.path().join("broken.obj");
-        std::fs::write(&broken, "v 0 0 0\nv 1 0 0\nf 1 2 9\n").unwrap();
-        let args = |allow_failures| Args {
-            objects: vec![broken.display().to_string()],
+        // Enough triangles and colours, and a texture coordinate that is not there.
+        let faces = |colour: u32| format!("usemtl {colour}\n{}", "f 1/9 2/9 3/9\n".repeat(40));
+        let vertices = "mtllib broken.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\n".to_owned();
+        std::fs::write(&broken, vertices + &faces(1) + &faces(2) + &faces(3)).unwrap();
+        let colour = |colour: u32| format!("newmtl {colour}\nKd 0.{colour} 0.5 0.2\n");
+        std::fs::write(folder.path().join("broken.mtl"), colour(1) + &colour(2) + &colour(3)).unwrap();
+        let args = |object: &str, allow_failures| Args {
+            objects: vec![folder.path().join(object).display().to_string()],
             out: folder.path().join("labels.csv"),
             shard: Shard { index: 0, count: 1 },
             resume: true,
@@ -189,9 +200,13 @@ mod tests {
             allow_failures,
             json: false,
         };
-        let refused = run(&args(false)).unwrap_err().to_string();
+        let refused = run(&args("broken.obj", false)).unwrap_err().to_string();
         assert!(refused.starts_with("1 of the labels could not be made"), "{refused}");
-        run(&args(true)).unwrap();
+        run(&args("broken.obj", true)).unwrap();
         assert!(LabelStore::open(&folder.path().join("labels.csv")).unwrap().is_empty());
+
+        std::fs::write(folder.path().join("small.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").unwrap();
+        let nothing = run(&args("small.obj", true)).unwrap_err().to_string();
+        assert!(nothing.contains("small.obj") && nothing.contains("--all"), "{nothing}");
     }
 }
