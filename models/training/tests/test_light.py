@@ -139,7 +139,7 @@ def test_two_measurements_are_compared_where_both_files_have_the_object(data, tm
     both = repeatability.pairs(data / "labels.csv", tmp_path / "again.csv", "v_gain")
     assert len(both) == 29 and set(both[:, 1] - both[:, 0]) == {2.0}
     table = repeatability.lines(data / "labels.csv", tmp_path / "again.csv")
-    assert "| 29 | 2.0 views |" in table[2] and "| 0.0 views |" in table[3]
+    assert "| 29 | 2.00 views |" in table[2] and "| 0.00 views |" in table[3]
 
 
 def test_the_target_chooses_the_column(data):
